@@ -65,6 +65,40 @@ impl Replay {
     pub fn is_in_time(&self) -> bool {
         self.states.iter().any(|state| matches!(state.level, Level::Time(_)))
     }
+
+    /// One of its states in words. A wall that falls does so under more than it bears: how far its load lies beyond the limit, the largest
+    /// load at rest, is said in load steps, so that a replay names no second capacity.
+    pub fn said(&self, state: &ReplayState) -> String {
+        let (level, limit) = (state.level, self.states.iter().rev().find(|own| own.is_equilibrium));
+        match (state.is_equilibrium, level, limit) {
+            (true, ..) => format!("at rest at {level}"),
+            (false, Level::Time(_), _) => format!("at {level}"),
+            _ if self.is_mechanism => {
+                format!("along the mechanism, which has no size of its own, at {level}")
+            }
+            (false, _, Some(limit)) if level.value() > limit.level.value() => {
+                let steps = self.beyond(level.value() - limit.level.value());
+                format!("falling, {steps} beyond the limit at {}", limit.level)
+            }
+            _ => format!("falling at {level}"),
+        }
+    }
+
+    /// How many load steps an amount of load is. A wall that hesitates as it falls gets whole ones; where none did, the longest step at
+    /// rest is one. The last step before the limit may be shorter, as a limit is bracketed.
+    fn beyond(&self, amount: f64) -> String {
+        let longest = |at_rest: bool| {
+            let states = self.states.iter().filter(|state| state.is_equilibrium == at_rest);
+            let levels: Vec<f64> = states.map(|state| state.level.value()).collect();
+            levels.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max)
+        };
+        let step = Some(longest(false)).filter(|step| *step > 0.0).unwrap_or_else(|| longest(true));
+        match if step > 0.0 { (amount / step).round() } else { 1.0 } {
+            0.0 => "less than one load step".to_owned(),
+            1.0 => "one load step".to_owned(),
+            steps => format!("{steps} load steps"),
+        }
+    }
 }
 
 impl BuiltJoint {
@@ -106,6 +140,38 @@ mod tests {
             area: 4.0,
         };
         (joint, [Vec3::new(1.0, 1.0, 1.0), Vec3::new(1.0, 1.0, -1.0)])
+    }
+
+    #[test]
+    fn a_wall_that_falls_is_said_to_lie_beyond_the_load_that_it_bears() {
+        let state = |factor: f64, is_equilibrium: bool| ReplayState {
+            level: Level::Factor(factor),
+            is_equilibrium,
+            poses: Vec::new(),
+            joints: Vec::new(),
+            gone: Vec::new(),
+        };
+        let said = |levels: &[(f64, bool)]| {
+            let states: Vec<_> = levels.iter().map(|(factor, rests)| state(*factor, *rests)).collect();
+            let replay = Replay { joints: Vec::new(), states, is_mechanism: false };
+            replay.states.iter().map(|state| replay.said(state)).collect::<Vec<_>>()
+        };
+        let bracketed = [(0.0, true), (0.1, true), (0.11, true), (0.12, false), (0.22, false), (0.32, false)];
+        let limit = "beyond the limit at load factor 0.11";
+        assert_eq!(
+            said(&bracketed)[2..],
+            [
+                "at rest at load factor 0.11".to_owned(),
+                format!("falling, less than one load step {limit}"),
+                format!("falling, one load step {limit}"),
+                format!("falling, 2 load steps {limit}"),
+            ]
+        );
+        assert_eq!(
+            said(&[(0.1, true), (0.2, true), (0.3, false)])[2],
+            "falling, one load step beyond the limit at load factor 0.2"
+        );
+        assert_eq!(said(&[(0.3, false)])[0], "falling at load factor 0.3", "it never came to rest");
     }
 
     #[test]

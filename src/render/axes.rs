@@ -56,7 +56,7 @@ impl Axis {
 
     fn label(&self, x: f64) -> String {
         if self.is_log {
-            return compact(x);
+            return engineering(x);
         }
         let digits = decimals(self.ends[1] - self.ends[0]);
         // What rounds to 0 from below has no sign.
@@ -73,7 +73,8 @@ impl Ranged for Axis {
         self.places().map(&self.place(*value), pixels)
     }
 
-    /// By powers: 1, 2 and 5 of every decade, or the powers alone where these are too many.
+    /// By powers: 1, 2 and 5 of every decade, or the powers alone where these are too many; round numbers where the axis is too short for two
+    /// of them.
     fn key_points<H: KeyPointHint>(&self, hint: H) -> Vec<f64> {
         if !self.is_log {
             return self.places().key_points(hint);
@@ -86,7 +87,11 @@ impl Ranged for Axis {
             all.filter(|x| (low..=high).contains(x)).collect()
         };
         let all = within(&[1, 2, 5]);
-        if all.len() > hint.max_num_points() { within(&[1]) } else { all }
+        match all.len() {
+            0 | 1 => RangedCoordf64::from(low..high).key_points(hint),
+            many if many > hint.max_num_points() => within(&[1]),
+            _ => all,
+        }
     }
 
     fn range(&self) -> Range<f64> {
@@ -140,6 +145,62 @@ pub(crate) fn exponent(x: f64) -> i32 {
     format!("{x:e}").split_once('e').and_then(|(_, exponent)| exponent.parse().ok()).unwrap_or(0)
 }
 
+/// Numbers from here up to the next bound are written out, others with a power of ten.
+const WRITTEN_OUT: [f64; 2] = [1e-3, 1e5];
+
+/// A number as engineers write it: `200`, `0.05`, `10⁷`, `2·10⁷`.
+fn engineering(x: f64) -> String {
+    let text = compact(x);
+    match text.split_once('e') {
+        Some((digits, power)) if !(WRITTEN_OUT[0]..WRITTEN_OUT[1]).contains(&x) => {
+            let ten = format!("10{}", superscript(power.parse().unwrap_or(0)));
+            if digits == "1" { ten } else { format!("{digits}\u{b7}{ten}") }
+        }
+        // The shortest decimal of what is read back has no zeros behind its digits.
+        _ => text.parse::<f64>().map_or(text, |short| short.to_string()),
+    }
+}
+
+/// An integer in superscript digits.
+pub(crate) fn superscript(number: i32) -> String {
+    number
+        .to_string()
+        .chars()
+        .map(|c| match c {
+            '-' => '\u{207b}',
+            '1' => '\u{b9}',
+            '2' => '\u{b2}',
+            '3' => '\u{b3}',
+            digit => char::from_u32(0x2070 + digit.to_digit(10).unwrap_or(0)).unwrap_or(digit),
+        })
+        .collect()
+}
+
+/// Units at the end of keys, the longest ones first, and how they are written.
+const UNITS: [(&str, &str); 7] = [
+    ("_kg_per_m3", "kg/m\u{b3}"),
+    ("_pa_per_m", "Pa/m"),
+    ("_pa", "Pa"),
+    ("_deg", "deg"),
+    ("_m", "m"),
+    ("_n", "N"),
+    ("_s", "s"),
+];
+
+/// What the axis over a key is called: `joint.phi_deg` is the `friction angle (deg)`.
+pub(crate) fn over_key(key: &str) -> String {
+    let name = key.rsplit('.').next().unwrap_or(key);
+    let unit = UNITS.iter().find_map(|(end, unit)| Some((name.strip_suffix(end)?, *unit)));
+    let (bare, unit) = unit.unwrap_or((name, ""));
+    let words = match bare {
+        "phi" => "friction angle".to_owned(),
+        "kn" => "joint stiffness kn".to_owned(),
+        "ks" => "shear stiffness of joints ks".to_owned(),
+        other => other.replace('_', " "),
+    };
+    if unit.is_empty() { words } else { format!("{words} ({unit})") }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -150,8 +211,39 @@ mod tests {
             let axis = Axis::by_powers("kn", ends, 8);
             axis.key_points(axis.labels).into_iter().map(|x| axis.label(x)).collect::<Vec<_>>()
         };
-        assert_eq!(labels([0.9e7, 1.1e8]), ["1e7", "2e7", "5e7", "1e8"]);
-        assert_eq!(labels([1e-4, 1.0]), ["1e-4", "1e-3", "1e-2", "1e-1", "1e0"]);
+        assert_eq!(
+            labels([0.9e7, 1.1e8]),
+            ["10\u{2077}", "2\u{b7}10\u{2077}", "5\u{b7}10\u{2077}", "10\u{2078}"]
+        );
+        assert_eq!(labels([1e-4, 1.0]), ["10\u{207b}\u{2074}", "0.001", "0.01", "0.1", "1"]);
+        assert_eq!(labels([20.0, 600.0]), ["20", "50", "100", "200", "500"]);
+        // No power of ten, nor twice or five times one, lies between: round numbers do.
+        let short = labels([2.9e7, 4.1e7]);
+        assert!(
+            ["3", "4"].iter().all(|digit| short.contains(&format!("{digit}\u{b7}10\u{2077}"))),
+            "{short:?}"
+        );
+    }
+
+    #[test]
+    fn an_axis_over_a_key_is_called_by_words() {
+        let keys = [
+            "phi_deg",
+            "joint.kn_pa_per_m",
+            "wall.base_thickness_m",
+            "arm.a.density_kg_per_m3",
+            "header_share",
+        ];
+        assert_eq!(
+            keys.map(over_key),
+            [
+                "friction angle (deg)",
+                "joint stiffness kn (Pa/m)",
+                "base thickness (m)",
+                "density (kg/m\u{b3})",
+                "header share"
+            ]
+        );
     }
 
     #[test]

@@ -28,8 +28,8 @@ Example: pirca run studies/tilting-block --out runs/first
          pirca report studies/tilting-block
          pirca report wall.json -- --phi-deg 35
 
-A study is run first, as far as it has not been. Of a run the study must be as it was run. The walls that are drawn are solved again; no other wall is. `pirca run --report` writes the same \
-page at the end of a run.
+Walls of a study that are not solved yet are solved first. For a finished run the study must be unchanged. The walls that are drawn are \
+solved again; no other wall is. `pirca run --report` writes the same page at the end of a run.
 
 --cite says how to cite a run: whoever runs that version on a study of that hash with that seed gets the same walls. The run must be of \
 this version of pirca.

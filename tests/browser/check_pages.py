@@ -211,17 +211,17 @@ def main():
         browser = playwright.chromium.launch(executable_path=chromium, args=["--no-sandbox", *SOFTWARE])
         found = []
         for path, words in [
-            (run, ["What came out", "Wall and inputs", "Statistics", "The walls", "Limits of validity", "Provenance", "For a paper"]),
-            (wall, ["What came out", "The wall from three sides, before the load", "Blocks and joints", "Inputs", "Limits of validity", "Provenance"]),
+            (run, ["Result", "Wall and inputs", "Statistics", "The walls", "Limits of validity", "Provenance", "For a paper"]),
+            (wall, ["Result", "The wall from three sides, before the load", "Blocks and joints", "Inputs", "Limits of validity", "Provenance"]),
             (verdict, ["What is wrong", "Measured beside simulated", "Causes", "How often such verdicts are right", *shared]),
-            (capacity, ["What came out", "Answers", "Values that these walls support", "Wall and inputs", *shared]),
-            (compare, ["What came out", "Arms, the best first", "Every pair of arms", "Wall and inputs", *shared]),
-            (sensitivity, ["What came out", "Shares of the variance in %", "Wall and inputs", *shared]),
-            (plan, ["What came out", "Characteristic value of 3 specimens", "Wall and inputs", *shared]),
-            (detectability, ["What came out", "What each mechanism was", "Wall and inputs", *shared]),
-            (readings, ["What came out", "Statements", "Readings, the best ones first", "Wall and inputs", *shared]),
-            (plate, ["What came out", "Stiffness at kn of the arm", "Size of the cells", "Wall and inputs", *shared]),
-            (types, ["What came out", "Types of elements", "Wall and inputs", *shared]),
+            (capacity, ["Result", "Answers", "Values that these walls support", "Wall and inputs", *shared]),
+            (compare, ["Result", "Arms, the best first", "Every pair of arms", "Wall and inputs", *shared]),
+            (sensitivity, ["Result", "Shares of the variance in %", "Wall and inputs", *shared]),
+            (plan, ["Result", "Characteristic value of 3 specimens", "Wall and inputs", *shared]),
+            (detectability, ["Result", "What each mechanism was", "Wall and inputs", *shared]),
+            (readings, ["Result", "Statements", "Readings, the best ones first", "Wall and inputs", *shared]),
+            (plate, ["Result", "Stiffness at kn of the arm", "Size of the cells", "Wall and inputs", *shared]),
+            (types, ["Result", "Types of elements", "Wall and inputs", *shared]),
         ]:
             found.append(f"{path}: {check(browser, path, words)} figures")
             check_names(browser, path)

@@ -85,6 +85,27 @@ fn probabilities_and_quantiles_are_those_of_the_walls() {
 }
 
 #[test]
+fn random_walls_answer_first_and_walls_that_are_all_alike_have_a_sentence_and_no_row() {
+    let folder = Folder::with_study(STUDY);
+    let walls = ["--members", "20", "--out", "out", "--report"];
+    let (json, text) = asked(&folder, &[&walls[..], &["--above-m", "0.0005"]].concat());
+    // The stack bond comes first in the study, at two stiffnesses.
+    assert_eq!((&json["groups"][0]["name"], &json["groups"][0]["random"]), (&"stack".into(), &false.into()));
+    assert!(text.starts_with("random at kn 5e7: above 0.500 mm with a probability of"), "{text}");
+    assert!(text.contains("stack: nothing is drawn, so its walls are all alike; above 0.500 mm: "), "{text}");
+    assert!(!text.contains("1 walls") && text.matches("stack").count() == 1, "{text}");
+    let page = fs::read_to_string(folder.path("out/report.html")).unwrap();
+    assert!(page.contains("<summary>Answers (2)</summary>"), "a row for each stiffness of the random walls");
+    assert!(page.contains("<p class=\"verdict\">random at kn 5e7"), "the headline");
+    let (_, text) = asked(&folder, &["--members", "1", "--out", "one"]);
+    assert!(
+        text.starts_with("stack: nothing is drawn")
+            && text.contains("random: one wall alone shows no scatter"),
+        "{text}"
+    );
+}
+
+#[test]
 fn three_specimens_of_a_family_are_said_to_carry_no_design_value() {
     let folder = Folder::with_study(STUDY);
     let study = Path::new(env!("CARGO_MANIFEST_DIR")).join("studies/tilting-table");

@@ -70,10 +70,7 @@ fn the_better_arm_is_named_with_its_paired_difference_and_a_twin_cannot_be_told_
     );
     let conclusion: Vec<&str> = text.split("\n\n").next().unwrap().lines().collect();
     assert!(conclusion.len() <= 5 && conclusion.iter().all(|line| line.chars().count() <= 100), "{text}");
-    assert!(
-        text.contains("tower is better than slim; it cannot be told apart from twin within 0.25 deg."),
-        "{text}"
-    );
+    assert!(text.contains("tower is better than slim, and the same as twin within 0.25 deg."), "{text}");
     let of = |over: &str| {
         let all = json["differences"].as_array().unwrap();
         all.iter().find(|own| own["arm"] == "tower" && own["over"] == over).unwrap().clone()
@@ -92,6 +89,11 @@ fn the_better_arm_is_named_with_its_paired_difference_and_a_twin_cannot_be_told_
         slim["better_by"].as_f64().map(|x| (x * 1e9).round()),
         mean(&differences).map(|x| (x * 1e9).round())
     );
+    // The means are those of the pairs, so that they differ by the difference.
+    let means = |own: &Value| [0, 1].map(|k| own["means"][k].as_f64().unwrap());
+    let [tower, other] = means(&slim);
+    assert!((tower - other - slim["better_by"].as_f64().unwrap()).abs() < 1e-9, "{slim}");
+    assert!(text.contains("mean: over the walls that the arm shares with the best one"), "{text}");
     // Three pairs of arms share what may be missed.
     let [low, high] = always_valid_mean(&differences, 0.05 / 3.0).unwrap();
     assert!((slim["interval"][0].as_f64().unwrap() - low).abs() < 1e-9);

@@ -77,7 +77,8 @@ fn a_wall_is_drawn_and_written_in_every_state_from_rest_through_the_collapse() {
     let read = |name: &str| fs::read_to_string(folder.path(name)).expect("it was written");
     let (first, last) = (read("frames/frame-000.svg"), read(&format!("frames/frame-{:03}.svg", states - 1)));
     assert!(first.contains(&format!("State 1 of {states}: at rest at a tilt of 0.0000 deg.")), "{first}");
-    assert!(last.contains(&format!("State {states} of {states}: falling at a tilt of ")), "{last}");
+    assert!(last.contains(&format!("State {states} of {states}: falling, ")), "{last}");
+    assert!(last.contains("beyond the limit at a tilt of "), "one capacity: {last}");
     // All frames are of one size, and the ground, which is drawn first, stays where it is.
     let head = |text: &str| text.lines().take(4).map(str::to_owned).collect::<Vec<_>>();
     assert_eq!(head(&first), head(&last));

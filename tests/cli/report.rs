@@ -2,6 +2,8 @@
 
 use std::collections::BTreeSet;
 use std::fs;
+use std::path::Path;
+use std::process::Output;
 
 use serde_json::Value;
 
@@ -156,8 +158,60 @@ fn asked(folder: &Folder, arguments: &[&str], words: &[&str]) {
     }
     // That of an earlier answer is not left beside a later one.
     let output = folder.pirca(&all[..all.len() - 1]);
+    removes_the_page(&folder.path(out), &output);
+}
+
+/// A command without a page took away that of an earlier one, and says so in a line.
+fn removes_the_page(out: &Path, output: &Output) {
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(output));
+    assert!(!out.join("report.html").exists(), "{}", out.display());
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert_eq!(
+        said.matches("was of an earlier answer and is removed; --report writes it").count(),
+        1,
+        "{said}"
+    );
+}
+
+#[test]
+fn a_run_leaves_no_page_of_fewer_walls_and_no_figure_that_it_does_not_draw() {
+    let (folder, _) = finished();
+    removes_the_page(
+        &folder.path("out"),
+        &folder.pirca(&["run", "studies/tiny", "--members", "5", "--out", "out"]),
+    );
+    let again = folder.pirca(&["run", "studies/tiny", "--members", "5", "--out", "out"]);
+    assert!(!String::from_utf8_lossy(&again.stdout).contains("is removed"), "there was none");
+    // One stiffness beside an earlier run has a figure, and alone has none.
+    folder.write_study(&STUDY.replace("[5e7, 1.75e8]", "[5e7]"));
+    let one = ["run", "studies/tiny", "--members", "3", "--out", "one"];
+    let figure = folder.path("one/figure-10.svg");
+    for (more, is_drawn) in [(&["--beside", "out"][..], true), (&[], false)] {
+        let output = folder.pirca(&[&one[..], more].concat());
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        assert_eq!(figure.exists(), is_drawn, "{more:?}");
+    }
+    assert!(folder.path("one/figure-10.csv").is_file());
+    let output = folder.pirca(&[&one[..], &["--report"]].concat());
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    assert!(!folder.path(format!("{out}/report.html")).exists(), "{out}");
+    let page = fs::read_to_string(folder.path("one/report.html")).expect("the page was written");
+    holds_together(&page);
+    assert!(!page.contains("id=\"figures\""), "no heading without a figure");
+}
+
+#[test]
+fn an_answer_on_a_wall_leaves_no_figure_of_an_earlier_one() {
+    let folder = walls::Folder::new();
+    fs::write(folder.path("tower.obj"), walls::GOOD_OBJ).unwrap();
+    let answered = |phi: &str| {
+        let output = folder.pirca(&["analyse", "tower.obj", "--phi-deg", phi, "--out", "seen"]);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        folder.path("seen/uncertainty.svg").exists()
+    };
+    assert!(answered("30..38"), "the figure of the ranges");
+    fs::write(folder.path("seen/notes.txt"), "of the user").unwrap();
+    assert!(!answered("35"), "a number has none");
+    assert!(folder.path("seen/notes.txt").exists() && folder.path("seen/wall.json").exists());
 }
 
 #[test]
@@ -231,7 +285,7 @@ fn a_study_and_a_wall_come_on_a_page_by_their_own_names() {
     // A study is run first; its page goes where it is asked for, and its run to the usual folder.
     told(&["report", "studies/tiny", "--out", "study.html"], 0);
     let page = fs::read_to_string(folder.path("study.html")).unwrap();
-    assert!(page.contains("<h1>Study tiny</h1>") && folder.path("runs/tiny/summary.json").is_file());
+    assert!(page.contains("<p>Study tiny</p>") && folder.path("runs/tiny/summary.json").is_file());
     assert!(!folder.path("runs/tiny/report.html").exists());
     let (_, error) = told(&["report", "studies/tiny", "--study", "studies/tiny"], 2);
     assert!(error.contains("--study is for the folder of a run"), "{error}");

@@ -47,7 +47,7 @@ fn every_value_is_an_arm_with_the_walls_of_a_study_that_sets_it() {
         "{table}"
     );
     let figure = fs::read_to_string(folder.path("out/sweep.svg")).unwrap();
-    assert!(figure.contains("joint.phi_deg") && figure.contains("regular"));
+    assert!(figure.contains("friction angle (deg)") && figure.contains("regular"));
     assert!(folder.path("out/sweep.png").exists());
 }
 
@@ -64,7 +64,7 @@ fn keys_are_crossed_and_one_of_an_arm_leaves_the_others() {
     assert!(summary["arms"].as_array().unwrap().iter().all(|arm| arm["members"] == 2));
     // Dips are no numbers: the figure is over the angle of friction, with a curve for each dip.
     let figure = fs::read_to_string(folder.path("out/sweep.svg")).unwrap();
-    assert!(figure.contains("joint.phi_deg") && figure.contains("random, dip_deg 0"), "{figure}");
+    assert!(figure.contains("friction angle (deg)") && figure.contains("random, dip_deg 0"), "{figure}");
 }
 
 #[test]

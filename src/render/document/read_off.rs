@@ -45,6 +45,9 @@ pub struct Trace {
     pub high: Vec<Option<f64>>,
     /// Whether it goes by steps.
     pub steps: bool,
+    /// Number of its colour, that of its arm in the drawing; left out where lines are numbered as they come.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub colour: Option<usize>,
 }
 
 impl Scale {
@@ -78,6 +81,7 @@ impl Trace {
             low: end(0),
             high: end(1),
             steps: false,
+            colour: None,
         }
     }
 }

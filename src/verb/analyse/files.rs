@@ -1,5 +1,7 @@
 //! What `analyse --out` writes of a wall: a page, a picture, files for ParaView, and tables of its blocks and joints.
 
+use std::fs;
+use std::io::ErrorKind;
 use std::path::Path;
 
 use serde_json::{Value, json};
@@ -26,6 +28,8 @@ use crate::verb::wall::condition::hinges;
 use crate::verb::wall::drawn::{Measure, seams, sides};
 use crate::verb::wall::replayed;
 
+/// The answer as an object.
+pub(crate) const ANALYSIS: &str = "analysis.json";
 /// Columns of `blocks.csv` and `joints.csv`.
 const BLOCKS: &str = "block,name,fixed,moves,rest_x_m,rest_y_m,rest_z_m,rest_turn_x_rad,rest_turn_y_rad,rest_turn_z_rad,\
                       mechanism_x,mechanism_y,mechanism_z,mechanism_turn_x,mechanism_turn_y,mechanism_turn_z";
@@ -53,10 +57,46 @@ pub(crate) fn write_page(path: &Path, of: &Seen<'_>, told: &Told<'_>) -> Result<
     Ok(replace_file(path, text.as_bytes())?)
 }
 
+/// Files that not every answer has. `wall.json` is not among them: it may be the wall that is asked about.
+const OF_SOME: [&str; 12] = [
+    "mechanism.vtu",
+    "mended.csv",
+    "mended.svg",
+    "closed-joints.csv",
+    "read.svg",
+    "rest.obj",
+    "collapse.obj",
+    "end.obj",
+    "end.svg",
+    "uncertainty.csv",
+    "uncertainty.svg",
+    "uncertainty.png",
+];
+
+/// Removes what an earlier answer left in a folder and this one may not have; never the wall itself.
+pub(crate) fn forget(folder: &Path, wall: &Path) -> Result<(), Failure> {
+    let wall = wall.canonicalize().ok();
+    for file in OF_SOME.map(|name| folder.join(name)) {
+        let is_wall = wall.is_some() && file.canonicalize().ok() == wall;
+        // A folder without an answer of ours holds files of somebody else.
+        if is_wall || !folder.join(ANALYSIS).is_file() {
+            continue;
+        }
+        match fs::remove_file(&file) {
+            Err(error) if error.kind() != ErrorKind::NotFound => {
+                return Err(Failure::Run(format!("{}: {error}", file.display())));
+            }
+            _ => {}
+        }
+    }
+    Ok(())
+}
+
 /// Writes all files of a wall; `object` is what `--json` prints of it, `told` what is said of it otherwise.
 pub(crate) fn write(folder: &Path, of: &Seen<'_>, object: &Value, told: &Told<'_>) -> Result<(), Failure> {
     let Seen { asked, file, fit, answer, state, replay } = *of;
     output::folder(folder)?;
+    forget(folder, &asked.wall)?;
     let picture = picture(asked, (file, fit), answer, state);
     let rests: Vec<Movement> = state.stones.iter().map(|stone| at_rest(state, stone)).collect();
     let source = Source::again(&asked.wall, file)?;
@@ -68,7 +108,7 @@ pub(crate) fn write(folder: &Path, of: &Seen<'_>, object: &Value, told: &Told<'_
         ("rest.vtu", write_vtu(&file.wall, (asked.solver() != SolverName::Limit).then_some(&rests[..]))),
         ("blocks.csv", blocks_csv(file, answer, state)),
         ("joints.csv", joints_csv(file, state)),
-        ("analysis.json", format!("{:#}\n", with_tables(object, file, answer, state))),
+        (ANALYSIS, format!("{:#}\n", with_tables(object, file, answer, state))),
     ];
     if state.falls {
         files.push(("mechanism.vtu", write_vtu(&drawn(&file.wall, state, picture.magnification), None)));
@@ -109,7 +149,7 @@ fn picture(asked: &Analyse, (file, fit): (&WallFile, &Fit), answer: &Answer, sta
     Picture {
         stones: state.stones.clone(),
         seams,
-        hinges: hinges(&state.joints, &state.conditions),
+        hinges: hinges(&state.joints, &state.conditions, state.falls),
         thrusts: state.thrusts.clone(),
         measure: said(asked.colour, asked.solver()).to_owned(),
         unit: asked.colour.unit(),

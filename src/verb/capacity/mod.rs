@@ -1,4 +1,4 @@
-//! What walls may be counted on to bear.
+//! What walls can be relied on to bear.
 
 pub(crate) mod answer;
 pub(crate) mod ask;

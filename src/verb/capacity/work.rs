@@ -1,4 +1,4 @@
-//! `pirca capacity`: what walls of a kind may be counted on to bear.
+//! `pirca capacity`: what walls of a kind can be relied on to bear.
 
 use serde_json::json;
 
@@ -23,7 +23,7 @@ pub(crate) fn capacity(arguments: &Capacity) -> Result<Answer, Failure> {
     let loaded = locate::any_study(&arguments.which)?;
     locate::not_shaken(
         &loaded.study,
-        "a wall falls somewhere between two intensities, so what it may be counted on is known as the fragility of its arm: pirca run fits it",
+        "a wall falls somewhere between two intensities, so what it can be relied on to bear is said by the fragility of its arm: pirca run fits it",
     )?;
     let study = locate::with_ensemble(loaded.study.clone(), &arguments.ensemble)?;
     let known = arguments.known_cov.map_or(Variation::Unknown, Variation::Known);
@@ -56,7 +56,7 @@ pub(crate) fn capacity(arguments: &Capacity) -> Result<Answer, Failure> {
             study.name
         )));
     }
-    question::needs_independent_walls(&study, "what walls may be counted on")?;
+    question::needs_independent_walls(&study, "what walls can be relied on to bear")?;
     let out = arguments.out.clone().unwrap_or_else(|| output::default_folder(&study, CAPACITY));
     let settings = Settings { out: out.clone(), threads: arguments.threads };
     let rows = ensemble::run(&study, &settings, progress::on_stderr(&study).as_ref())?;

@@ -22,7 +22,7 @@ that looking early costs nothing. Stopped and started again it goes on where it 
 
 ",
     codes!(),
-    "\nAn answer, \"cannot be told apart\" and \"not decided\" all end with 0."
+    "\nAn answer, \"the same\" and \"not decided\" all end with 0."
 );
 
 /// Arguments of `compare`.

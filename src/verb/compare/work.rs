@@ -51,15 +51,26 @@ pub(crate) fn compare(arguments: &Compare) -> Result<Answer, Failure> {
         return Err(hopeless(&contest, &rows, &look, why));
     }
     let summary = SelectionSummary::of(&contest, question, &rows, &look);
+    let counted = evaluated(&study, &rows);
     let place = Place {
         out: &out,
         name: COMPARE,
-        study: (&study, &loaded),
+        study: (&counted, &loaded),
         of: &arguments.which.study,
         threads: arguments.threads,
         report: arguments.report,
     };
     told(&selection_document(&summary), &summary, &place)
+}
+
+/// The study with the arms that were compared, each with the walls that were evaluated of it.
+fn evaluated(study: &Study, rows: &[Row]) -> Study {
+    let mut counted = study.clone();
+    for (arm, index) in counted.arms.iter_mut().zip(0u32..) {
+        arm.members = rows.iter().filter(|row| row.arm_index == index).count() as u64;
+    }
+    counted.arms.retain(|arm| arm.members > 0);
+    counted
 }
 
 fn arm_of(study: &Study, index: u32) -> &crate::study::Arm {

@@ -82,23 +82,26 @@ fn judged(arguments: &Diagnose) -> Result<Answer, Failure> {
     output::folder(&out)?;
     let failed = |error: anyhow::Error| Failure::Run(format!("{error:#}"));
     let drawings = write_diagnosis(&summary, &families, &fit, &out).map_err(failed)?;
-    page::beside(&out, (arguments.report, &arguments.which.study, arguments.threads), |origin| {
-        let (fitted, drawings) = (drawings.fit.as_ref(), &drawings.others[..]);
-        diagnosis_page(&DiagnosisPage {
-            study: &study,
-            summary: &summary,
-            fit: &fit,
-            fitted,
-            drawings,
-            origin,
-        })
-    })?;
+    let removed = if arguments.report { String::new() } else { page::without_page(&out)? };
+    if arguments.report {
+        page::beside(&out, (&arguments.which.study, arguments.threads), |origin| {
+            let (fitted, drawings) = (drawings.fit.as_ref(), &drawings.others[..]);
+            diagnosis_page(&DiagnosisPage {
+                study: &study,
+                summary: &summary,
+                fit: &fit,
+                fitted,
+                drawings,
+                origin,
+            })
+        })?;
+    }
     let origin = Origin { study: &study, stated: &stated, seed, bank: &plan.study.hash };
     let extended = extended(&origin, &world, &extensions, &out)?;
     let is_unexplained = diagnosis.verdict == Verdict::Unexplained;
     let law = learnt(&origin, &nuisances, is_unexplained, arguments.law, &out)?;
     let text = diagnosis_text(&summary);
-    let text = format!("{text}{law}\nwritten to {}\n{extended}", out.display());
+    let text = format!("{text}{law}\nwritten to {}\n{removed}{extended}", out.display());
     Ok(Answer::of(text, &summary)?.in_place(&out))
 }
 

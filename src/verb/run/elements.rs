@@ -47,6 +47,8 @@ pub(crate) fn run(folder: &Path, arguments: &Run, file: Option<PathBuf>) -> Resu
     })?;
     let summary = write_elements(&study, &rows, &out).map_err(|error| Failure::Run(format!("{error:#}")))?;
     let document = element_document(&study, &rows);
+    let is_beside = arguments.report && file.is_none();
+    let removed = if is_beside { String::new() } else { page::without_page(&out)? };
     let file = file.or_else(|| arguments.report.then(|| out.join(page::PAGE)));
     if let Some(file) = &file {
         let origin = Origin::now(folder, arguments.threads).of_page();
@@ -55,6 +57,6 @@ pub(crate) fn run(folder: &Path, arguments: &Run, file: Option<PathBuf>) -> Resu
         ensemble::replace_file(file, text.as_bytes())?;
     }
     let page = file.map(|file| format!(", with a page: {}", file.display())).unwrap_or_default();
-    let text = format!("{}written to {}{page}\n", document.text(), out.display());
+    let text = format!("{}written to {}{page}\n{removed}", document.text(), out.display());
     Ok(Answer::of(text, &summary)?.in_place(&out))
 }

@@ -1,6 +1,7 @@
 //! The page of a run; and an answer as its files, its page and its words.
 
 use std::fs;
+use std::io::ErrorKind;
 use std::num::NonZero;
 use std::path::Path;
 
@@ -14,7 +15,9 @@ use crate::terminal::doing::doing;
 use crate::terminal::failure::Failure;
 use crate::verb::locate;
 use crate::verb::run::answer::files::write_document;
-use crate::verb::run::answer::page::{DrawnWall, PageOrigin, RunPage, chosen_walls, document_page, run_page};
+use crate::verb::run::answer::page::{
+    DrawnWall, PageOrigin, RunPage, called, chosen_walls, document_page, run_page,
+};
 use crate::verb::run::origin::Origin;
 use crate::verb::wall::drawn::{Measure, ending};
 use crate::verb::wall::one_wall::OneWall;
@@ -40,7 +43,7 @@ pub(crate) fn write(
         let kn = study.arms[task.arm as usize].kn_points[task.point as usize];
         let wall = OneWall::at(study.clone(), task, kn)?;
         let (run, replay) =
-            doing(&format!("drawing the {which} wall"), |doing| wall.replayed(&|level| doing.at(level)));
+            doing(&format!("drawing the {}", called(which)), |doing| wall.replayed(&|level| doing.at(level)));
         let picture = picture::of_wall(&wall, &run, Measure::Opening, None);
         drawn.push(DrawnWall { which, task, picture, replay, ending: ending(&run) });
     }
@@ -72,33 +75,36 @@ pub(crate) fn told(
     place: &Place<'_>,
 ) -> Result<Answer, Failure> {
     let out = place.out;
-    let text = format!("{}\nwritten to {}\n", document.text(), out.display());
+    let removed = if place.report { String::new() } else { without_page(out)? };
+    let text = format!("{}\nwritten to {}\n{removed}", document.text(), out.display());
     let answer = Answer::of(text, object)?.in_place(out);
     write_document(document, (place.name, &answer.json), out)
         .map_err(|error| Failure::Run(format!("{error:#}")))?;
-    beside(out, (place.report, place.of, place.threads), |origin| {
-        document_page(document, place.study, origin)
-    })?;
+    if place.report {
+        beside(out, (place.of, place.threads), |origin| document_page(document, place.study, origin))?;
+    }
     Ok(answer)
 }
 
-/// Writes the page of an answer beside its files, if it is asked for; else takes away that of an earlier answer, which would be taken
-/// for this one's.
+/// Writes the page of an answer beside its files.
 pub(crate) fn beside(
     out: &Path,
-    (is_asked, of, threads): (bool, &Path, Option<NonZero<usize>>),
+    (of, threads): (&Path, Option<NonZero<usize>>),
     page: impl FnOnce(&PageOrigin) -> anyhow::Result<String>,
 ) -> Result<(), Failure> {
-    let file = out.join(PAGE);
-    if !is_asked {
-        return match fs::remove_file(&file) {
-            Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
-                Err(Failure::Run(format!("{}: {error}", file.display())))
-            }
-            _ => Ok(()),
-        };
-    }
     let origin = Origin::now(&locate::folder(of)?, threads).of_page();
     let text = page(&origin).map_err(|error| Failure::Run(format!("{error:#}")))?;
-    Ok(replace_file(&file, text.as_bytes())?)
+    Ok(replace_file(&out.join(PAGE), text.as_bytes())?)
+}
+
+/// Removes the page of an earlier answer, which would be taken for that of this one, and says so in a line; nothing where there is none.
+pub(crate) fn without_page(out: &Path) -> Result<String, Failure> {
+    let file = out.join(PAGE);
+    match fs::remove_file(&file) {
+        Ok(()) => {
+            Ok(format!("{} was of an earlier answer and is removed; --report writes it\n", file.display()))
+        }
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(String::new()),
+        Err(error) => Err(Failure::Run(format!("{}: {error}", file.display()))),
+    }
 }

@@ -53,11 +53,13 @@ pub(crate) fn with_page(arguments: &Run, page: Option<PathBuf>) -> Result<Answer
             ensemble::replace_file(&out.join(name), table.as_bytes())?;
         }
     }
+    let is_beside = arguments.report && page.is_none();
+    let removed = if is_beside { String::new() } else { page::without_page(&out)? };
     if arguments.report {
         let file = page.unwrap_or_else(|| out.join(page::PAGE));
         page::write(&file, (&study, &loaded), &rows, &origin)?;
     }
-    let text = format!("{}\nwritten to {}\n", terminal_table(&summary).trim_end(), out.display());
+    let text = format!("{}\nwritten to {}\n{removed}", terminal_table(&summary).trim_end(), out.display());
     let answer = Answer::of(text, &summary)?.in_place(&out);
     // A demand of which nothing is known is not met.
     let at_most = summary.demand.as_ref().map_or(1.0, DemandSummary::at_most);

@@ -20,6 +20,7 @@ use crate::verb::run::answer::files::write_gathered;
 use crate::verb::run::answer::gathered::Gathered;
 use crate::verb::run::answer::table::terminal_table;
 use crate::verb::run::origin::Origin;
+use crate::verb::run::page;
 use crate::verb::shards::ask::Merge as Arguments;
 use crate::verb::shards::job::{Job, Made};
 
@@ -79,7 +80,8 @@ fn of_study(merge: &Merge<'_>, out: &Path) -> Result<(String, Value), Failure> {
     tables(merge, &study, out, &mut |row| gathered.take(row))?;
     let summary =
         write_gathered(&study, gathered, out, None).map_err(|error| Failure::Run(format!("{error:#}")))?;
-    let text = format!("{}\nwritten to {}\n", terminal_table(&summary).trim_end(), out.display());
+    let removed = page::without_page(out)?;
+    let text = format!("{}\nwritten to {}\n{removed}", terminal_table(&summary).trim_end(), out.display());
     Ok((text, json!(summary)))
 }
 

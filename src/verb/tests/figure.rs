@@ -137,9 +137,8 @@ fn studies_of_other_shapes_are_drawn_too() {
     assert!(empty.contains("no wall brings a value: there is nothing to draw"));
     assert!(empty.contains("! irregular: no wall brings a value at any stiffness"));
     assert!(empty.contains("irregular: no wall\n"), "the legend claims nothing");
-    // One kn: a bar instead of a band, and an axis with room on both sides of it.
-    let one = drawn(&[fixed_arm("regular", &[1e-3]), random_arm("rubble & rough", &[2e-3])].concat());
-    assert!(one.contains("rubble &amp; rough: mean of 8 walls"), "names are escaped");
+    let two = drawn(&[fixed_arm("regular", &[1e-3]), random_arm("rubble & rough", &[2e-3, 1e-3])].concat());
+    assert!(two.contains("rubble &amp; rough: mean of 8 walls"), "names are escaped");
     // A gap in the middle: no line crosses it. Points per line of the arm's colour, that of the legend included.
     let mut gap = fixed_arm("regular", &[3e-3, 2e-3, 1e-3]);
     let lines = |text: &str| -> Vec<usize> {

@@ -136,9 +136,15 @@ fn at_rest(joint: &JointState) -> Condition {
     }
 }
 
-/// The hinges among joints, for a picture.
-pub(crate) fn hinges(joints: &[JointState], conditions: &[Condition]) -> Vec<Hinge> {
-    let hinges = joints.iter().zip(conditions).filter(|(_, condition)| **condition == Condition::Hinge);
+/// The hinges among joints, for a picture: those that turn. As a wall falls their conditions say so; at rest a joint that gapes by less than
+/// a tenth of the widest does not turn enough to be seen.
+pub(crate) fn hinges(joints: &[JointState], conditions: &[Condition], falls: bool) -> Vec<Hinge> {
+    let widest = joints.iter().map(|joint| joint.opening).fold(0.0, f64::max);
+    let turns = |joint: &JointState| falls || joint.opening >= MOVES * widest;
+    let hinges = joints
+        .iter()
+        .zip(conditions)
+        .filter(|(joint, condition)| **condition == Condition::Hinge && turns(joint));
     // The ground, which may be no block of the picture, comes last.
     hinges.map(|(joint, _)| Hinge { block: joint.blocks[0] as usize, edge: joint.closing.edge }).collect()
 }
@@ -176,6 +182,10 @@ mod tests {
         let names: Vec<&str> = conditions.iter().map(|of| of.name()).collect();
         assert_eq!(names, ["closed", "hinge", "closed", "slip", "open"]);
         let edge = [Vec3::zeros(), Vec3::x()];
-        assert_eq!(hinges(&joints, &conditions), [Hinge { block: 3, edge }]);
+        assert_eq!(hinges(&joints, &conditions, false), [Hinge { block: 3, edge }]);
+        // Beside one that gapes ten times as far nothing is seen of it, unless it turns as the wall falls.
+        let wider = [joint(1e3, 0.1, 2e-3, 0.0), joint(1e3, 1.0, 2.1e-2, 0.0)];
+        assert_eq!(hinges(&wider, &resting(&wider), false), []);
+        assert_eq!(hinges(&wider, &resting(&wider), true).len(), 1);
     }
 }

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::ensemble::replace_file;
-use crate::model::{BuiltJoint, JointReading, Replay, ReplayState, Wall};
+use crate::model::{BuiltJoint, JointReading, Replay, Wall};
 use crate::render::picture::{Picture, Seam, Stage, Stone};
 use crate::terminal::failure::Failure;
 use crate::terminal::output;
@@ -63,18 +63,8 @@ fn frame(shown: &Shown<'_>, replay: &Replay, number: usize, magnification: f64) 
         magnification,
         title: shown.title.clone(),
         remarks: vec![
-            said(state, replay, number),
+            format!("State {} of {}: {}.", number + 1, replay.states.len(), replay.said(state)),
             format!("Movements times {magnification}; seen from the {side}, x = 0 on the {end}."),
         ],
     }
-}
-
-/// Which state it is.
-fn said(state: &ReplayState, replay: &Replay, number: usize) -> String {
-    let what = match (state.is_equilibrium, replay.is_mechanism) {
-        (true, _) => "at rest at",
-        (false, false) => "falling at",
-        (false, true) => "along the mechanism, which has no size of its own, at",
-    };
-    format!("State {} of {}: {what} {}.", number + 1, replay.states.len(), state.level)
 }

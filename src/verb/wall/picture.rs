@@ -98,7 +98,7 @@ pub(crate) fn of_wall(chosen: &OneWall, run: &Run, colour: Measure, magnify: Opt
     Picture {
         stones,
         seams,
-        hinges: hinges(&run.joint_states, &conditions),
+        hinges: hinges(&run.joint_states, &conditions, falls),
         thrusts: Vec::new(),
         measure: colour.said().to_owned(),
         unit: colour.unit(),

@@ -12,6 +12,14 @@ function short(x) {
   return Math.abs(own) < 1e5 ? own.toString() : own.toExponential().replace("e+", "e");
 }
 
+// A tick of an axis as the drawings have it: 200, 0.05, 2\u00b710\u2077.
+function tick(x) {
+  const [digits, power] = Number(x.toPrecision(4)).toExponential().split("e");
+  if (x === 0 || (Math.abs(x) >= 1e-3 && Math.abs(x) < 1e5)) return short(x);
+  const ten = `10${[...String(Number(power))].map((digit) => "\u207b\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079"["-0123456789".indexOf(digit)]).join("")}`;
+  return digits === "1" ? ten : `${digits}\u00b7${ten}`;
+}
+
 function table(line) {
   return line.low ? [line.x, line.y, line.low, line.high] : [line.x, line.y];
 }
@@ -20,7 +28,7 @@ function options(chart, width) {
   const series = [{ label: chart.x.label, value: (_, x) => short(x) }];
   const bands = [];
   chart.lines.forEach((line, k) => {
-    const stroke = COLOURS[k % COLOURS.length], dash = DASHES[Math.floor(k / COLOURS.length) % DASHES.length];
+    const stroke = COLOURS[(line.colour ?? k) % COLOURS.length], dash = DASHES[Math.floor(k / COLOURS.length) % DASHES.length];
     const paths = line.steps ? uPlot.paths.stepped({ align: 1 }) : undefined;
     const value = (_, y) => short(y);
     series.push({ label: line.name, stroke, dash, width: 2, spanGaps: true, paths, value, points: { show: !line.steps, size: 6 } });
@@ -29,7 +37,7 @@ function options(chart, width) {
     series.push({ ...edge, label: `${line.name}, low` }, { ...edge, label: `${line.name}, high` });
     bands.push({ series: [series.length - 1, series.length - 2], fill: stroke + "22" });
   });
-  const axis = (own) => ({ label: own.label, values: (_, ticks) => ticks.map((x) => (x === null ? "" : short(x))) });
+  const axis = (own) => ({ label: own.label, values: (_, ticks) => ticks.map((x) => (x === null ? "" : tick(x))) });
   const scale = (own) => (own.log ? { time: false, distr: 3 } : { time: false });
   return {
     width, height: Math.round(width * 0.55), series, bands, axes: [axis(chart.x), axis(chart.y)],

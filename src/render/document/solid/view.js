@@ -98,7 +98,7 @@ function place(shown, state, times) {
   });
 }
 
-// The values that are coloured in a state, and the largest one of the states at rest: by it alone those of a fall would hide all others.
+// The values that are coloured in a state.
 function values(shown, measure, state) {
   const { of } = MEASURES[measure];
   const { poses, joints } = shown.wall.states[state];
@@ -107,14 +107,11 @@ function values(shown, measure, state) {
     : shown.seams.map((_, k) => joints[3 * k + of]);
 }
 
+// The largest one at the last state at rest, as in the drawing beside: those of a fall would hide all others. Where nothing is seen there, of all.
 function largest(shown, measure) {
-  const all = shown.rested > 0 ? shown.rested : shown.wall.states.length;
-  let most = 0;
-  for (let state = 0; state < all; state += 1) most = values(shown, measure, state).reduce((a, b) => Math.max(a, b), most);
-  if (most === 0 && all < shown.wall.states.length) {
-    for (let state = all; state < shown.wall.states.length; state += 1) most = values(shown, measure, state).reduce((a, b) => Math.max(a, b), most);
-  }
-  return most;
+  const last = shown.rested - 1;
+  const most = shown.wall.states.map((_, state) => values(shown, measure, state).reduce((a, b) => Math.max(a, b), 0));
+  return (last >= 0 && most[last]) || Math.max(...most);
 }
 
 function paint(shown, measure, state, most) {
@@ -191,7 +188,7 @@ function show(figure) {
     if (own) {
       const sized = shown.wall.is_mechanism && measure.value !== "stress";
       const end = sized ? "most" : `${short(most * own.scale)} ${own.unit} and more`;
-      bar.querySelector(".end").textContent = `${end}: ${own.words}${shown.rested > 0 && !sized ? ", largest at rest" : ""}`;
+      bar.querySelector(".end").textContent = `${end}: ${own.words}${shown.rested > 0 && !sized ? ", largest at the last state at rest" : ""}`;
     }
     draw();
   }

@@ -12,6 +12,7 @@ use crate::render::number::significant;
 use crate::render::picture::{Picture, Seam, Stone};
 use crate::terminal::failure::Failure;
 use crate::terminal::output;
+use crate::verb::analyse::files::{ANALYSIS, forget};
 use crate::verb::analyse::page::{Source, inputs};
 use crate::verb::analyse::shaken::{Common, Ran, one};
 use crate::verb::analyse::views::views;
@@ -37,6 +38,7 @@ pub(crate) fn write(
     warnings: &[String],
 ) -> Result<(), Failure> {
     output::folder(folder)?;
+    forget(folder, &of.asked.wall)?;
     let picture = picture(of, run);
     let mut whole = object.clone();
     whole["block_states"] = blocks(of, run).map(|own| own.object()).collect();
@@ -45,7 +47,7 @@ pub(crate) fn write(
         ("end.svg", picture.svg()),
         ("views.svg", views(of.asked, of.file).svg()),
         ("blocks.csv", blocks_csv(of, run)),
-        ("analysis.json", format!("{whole:#}\n")),
+        (ANALYSIS, format!("{whole:#}\n")),
     ];
     for (name, text) in files {
         replace_file(&folder.join(name), text.as_bytes())?;

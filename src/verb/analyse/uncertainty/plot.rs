@@ -4,7 +4,7 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 
 use crate::math::{exp, ln};
-use crate::render::axes::{Axes, Axis, BAND_ALPHA, PLOT_HEIGHT};
+use crate::render::axes::{Axes, Axis, BAND_ALPHA, PLOT_HEIGHT, over_key};
 use crate::render::draw::Figure;
 use crate::render::marker::colour;
 use crate::render::number::range;
@@ -49,8 +49,7 @@ impl<'s> PointsPlot<'s> {
         let [from, to] = [from, to].map(|x| if is_log { exp(x) } else { x });
         let shown = points.iter().map(|(_, y)| *y).chain(summary.answer.middle);
         let [low, high] = about(range(shown), NARROWEST_LOADS * summary.answered.resolution);
-        let across = format!("{} ({})", own.unsure.name, own.unit);
-        let x = Axis { is_log, ..Axis::new(across, [from, to], 4) };
+        let x = Axis { is_log, ..Axis::new(over_key(own.unsure.name), [from, to], 4) };
         let y = Axis::new(format!("load at collapse ({})", summary.answered.unit), [low, high], 8);
         let mut chart = Axes { x, y }.on(area, self.pen, (own.word, 22), 82)?;
         if let [Some(bottom), Some(top)] = summary.answer.interval {

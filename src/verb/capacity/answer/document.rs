@@ -1,8 +1,9 @@
-//! What walls may be counted on, as a document.
+//! What walls can be relied on to bear, as a document.
 
+use crate::ensemble::Quantity;
 use crate::render::document::{Captioned, Document, Layout, Part, ReadOff, Scale, Table, Trace};
 use crate::render::number::{compact, or_dash, significant, with_interval};
-use crate::verb::capacity::answer::figure::{capacity_chart, capacity_csv};
+use crate::verb::capacity::answer::figure::{capacity_chart, capacity_csv, drawn};
 use crate::verb::capacity::answer::text::{SUPPORTED, VALUES, conclusions, method, probability, supported};
 use crate::verb::capacity::answer::{CapacityGroup, CapacitySummary, Question};
 
@@ -11,8 +12,12 @@ const FIGURE: &str = "probability";
 
 /// The document of an answer.
 pub fn capacity_document(summary: &CapacitySummary) -> Document<'_> {
-    let caption = "How probable it is that a wall lies on the worse side of a level, over the level. Bars: 95 % intervals of the \
-                   answers. The numbers are in probability.csv.";
+    let (all, drawn) = (summary.spread().count(), drawn(summary).len());
+    let at = if drawn < all { " Each arm at the middle of its stiffnesses." } else { "" };
+    let caption = format!(
+        "How probable it is that a wall lies on the worse side of a level, over the level. Bars: 95 % intervals of the answers.{at} The \
+         numbers are in probability.csv."
+    );
     let figure = capacity_chart(summary).map(|chart| {
         let figure = Captioned::chart(FIGURE, "Probability over the level", caption, chart);
         Part::Figure(figure.with_read_off(read_off(summary)))
@@ -20,7 +25,7 @@ pub fn capacity_document(summary: &CapacitySummary) -> Document<'_> {
     let values = Table { caption: VALUES.to_owned(), ..Table::headed(SUPPORTED, supported(summary)) };
     let tables = [answers(summary), values].map(Part::Table);
     Document {
-        title: format!("What walls of study {} may be counted on", summary.study),
+        title: title(summary),
         question: question(summary),
         parts: Part::sentences(conclusions(summary)).chain(tables).chain(figure).collect(),
         files: vec![("probability.csv", capacity_csv(summary))],
@@ -45,16 +50,24 @@ fn read_off(summary: &CapacitySummary) -> Option<ReadOff> {
         let mut points: Vec<_> =
             rungs.map(|rung| (level(rung.level), Some(rung.probability), rung.interval)).collect();
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
-        Trace::through(name, points)
+        Trace { colour: Some(group.place), ..Trace::through(name, points) }
     };
     let runs = |group: &CapacityGroup| {
         group.rungs.iter().filter_map(|rung| rung.run).max().map_or(0, |last| last + 1)
     };
-    let each = summary.groups.iter().flat_map(|group| {
+    let each = drawn(summary).into_iter().flat_map(|group| {
         std::iter::once(None).chain((0..runs(group)).map(Some)).map(move |run| (group, run))
     });
     let x = Scale::of(format!("level ({})", summary.shown.shown_unit()));
     ReadOff::with(x, Scale::of("probability").by_powers(), each.map(line))
+}
+
+fn title(summary: &CapacitySummary) -> String {
+    let variant = summary.variant.as_ref().map_or_else(String::new, |variant| format!(", variant {variant}"));
+    match summary.shown {
+        Quantity::TopDisplacement => format!("How far walls of study {}{variant} move", summary.study),
+        _ => format!("What walls of study {}{variant} can be relied on to bear", summary.study),
+    }
 }
 
 fn question(summary: &CapacitySummary) -> String {
@@ -91,6 +104,6 @@ fn answers(summary: &CapacitySummary) -> Table {
         ]
     };
     let heads = ["walls of", "kn Pa/m", &head, "COV %", "by", "walls", "without a value"];
-    let answers = Table::new("Answers", &heads, summary.groups.iter().map(row).collect());
+    let answers = Table::new("Answers", &heads, summary.spread().map(row).collect());
     Table { layout: Layout::OnPage, ..answers }
 }

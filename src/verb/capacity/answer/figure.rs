@@ -55,9 +55,16 @@ pub(crate) fn capacity_csv(summary: &CapacitySummary) -> Vec<u8> {
     csv.bytes()
 }
 
+/// The walls that are drawn: those of each arm that differ, at the middle of its stiffnesses (the lower of two), so that an arm is one line in its
+/// own colour.
+pub(crate) fn drawn(summary: &CapacitySummary) -> Vec<&CapacityGroup> {
+    let groups: Vec<&CapacityGroup> = summary.spread().collect();
+    groups.chunk_by(|a, b| a.name == b.name).map(|own| own[(own.len() - 1) / 2]).collect()
+}
+
 /// The chart of the walls that differ; `None` where there is nothing to draw.
 pub(crate) fn capacity_chart(summary: &CapacitySummary) -> Option<Chart> {
-    let groups: Vec<&CapacityGroup> = summary.groups.iter().filter(|group| group.random).collect();
+    let groups = drawn(summary);
     let rungs = || groups.iter().flat_map(|group| &group.rungs);
     let shown = |level: f64| summary.shown.shown(level);
     let [first, last] = range(rungs().map(|rung| shown(rung.level)))?;
@@ -72,7 +79,7 @@ pub(crate) fn capacity_chart(summary: &CapacitySummary) -> Option<Chart> {
         answers.flat_map(|group| group.answer.value().into_iter().chain(group.interval.map(|[low, _]| low)));
     let seen = rungs().map(|rung| rung.probability).chain(answers).filter(|p| *p > 0.0);
     let bottom = BELOW * range(seen).map_or(0.1, |[low, _]| low);
-    let series = groups.iter().enumerate().map(|(index, group)| {
+    let series = groups.iter().map(|group| {
         let line = |run: Option<usize>| {
             let own = group.rungs.iter().filter(move |rung| rung.run == run && rung.probability > 0.0);
             own.map(|rung| (shown(rung.level), rung.probability)).collect::<Vec<_>>()
@@ -94,7 +101,7 @@ pub(crate) fn capacity_chart(summary: &CapacitySummary) -> Option<Chart> {
             _ => asked.zip(group.answer.value().filter(|p| *p > 0.0)),
         };
         marks.push(Mark::Dots(point.into_iter().collect()));
-        Series { index, label: label(group), marks }
+        Series { index: group.place, label: label(group), marks }
     });
     let side = if matches!(summary.question, Question::Above(_)) { "above" } else { "below" };
     let variant = summary.variant.as_ref().map_or_else(String::new, |variant| format!(", {variant}"));

@@ -69,6 +69,9 @@ pub struct CapacityGroup {
     /// Values that the walls support, normal and lognormal; where a stated variation is in doubt with it first and then without it. None
     /// where some value is not known, or nothing is drawn.
     pub supported: Vec<Supported>,
+    /// Its place among the arms of the study, or among the families, which gives it its colour.
+    #[serde(skip)]
+    pub place: usize,
     /// The probability of the worse side over the level, by all walls alike and by each run: in the figure and its table.
     #[serde(skip)]
     pub rungs: Vec<Rung>,
@@ -317,8 +320,14 @@ impl CapacityGroup {
             walls_cov: complete.then(|| stats::cov(values)).flatten(),
             stated_cov,
             supported,
+            place: 0,
             rungs: known.rungs(),
         }
+    }
+
+    /// Whether its walls can answer: they differ, and one alone shows no scatter. A specimen has that of its kind, if it is stated.
+    pub(crate) fn is_spread(&self) -> bool {
+        self.random && (self.walls > 1 || self.kn_pa_per_m.is_none())
     }
 }
 

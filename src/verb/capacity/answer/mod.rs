@@ -54,8 +54,10 @@ impl CapacitySummary {
     pub fn simulated(study: &Study, rows: &[Row], question: Question, known: Variation) -> CapacitySummary {
         let groups = populations(study, rows);
         let until = |own: &Population| study.arms.iter().find(|arm| arm.name == own.arm)?.until;
-        let of = |own: &Population| {
-            CapacityGroup::simulated(own, question, known, study.solver.name(), until(own))
+        let place = |own: &Population| study.arms.iter().position(|arm| arm.name == own.arm);
+        let of = |own: &Population| CapacityGroup {
+            place: place(own).unwrap_or_default(),
+            ..CapacityGroup::simulated(own, question, known, study.solver.name(), until(own))
         };
         let mut all: Vec<CapacityGroup> = groups.iter().map(of).collect();
         if groups.iter().any(|own| own.left_open().is_some()) {
@@ -79,15 +81,16 @@ impl CapacitySummary {
                 families.push(&m.family);
             }
         }
-        let of = |family: &&str| {
+        let of = |(place, family): (usize, &&str)| {
             let own = || angles().filter(|m| m.family == *family);
             let angle = |m: &Measurement| degrees(m.value);
             let read = own().filter(|m| !m.kind.is_censored()).map(angle).collect();
             let above = own().filter(|m| m.kind == MeasuredKind::Above).map(angle).collect();
             let unread = own().filter(|m| m.kind == MeasuredKind::Below).count() as u64;
-            CapacityGroup::measured(family, read, above, unread, question, known)
+            let group = CapacityGroup::measured(family, read, above, unread, question, known);
+            CapacityGroup { place, ..group }
         };
-        let groups = families.iter().map(of).collect();
+        let groups = families.iter().enumerate().map(of).collect();
         CapacitySummary::new(study, Quantity::CollapseAngle, question, known, groups)
     }
 
@@ -99,6 +102,11 @@ impl CapacitySummary {
             false => group.answer.value().filter(|_| group.failed.walls == 0).unwrap_or(1.0),
         };
         self.groups.iter().map(of).fold(0.0, f64::max)
+    }
+
+    /// The groups whose walls can answer.
+    pub(crate) fn spread(&self) -> impl Iterator<Item = &CapacityGroup> {
+        self.groups.iter().filter(|group| group.is_spread())
     }
 
     fn new(

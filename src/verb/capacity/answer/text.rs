@@ -15,13 +15,50 @@ pub(crate) const SUPPORTED: &str = "Values that these walls support";
 pub(crate) const VALUES: &str = "characteristic: the next wall lies below it with a probability of 5 % (EN 1990 D7.2); 95/95: no more than \
      5 % of all walls lie below it, with a confidence of 95 %; design: the next wall lies below it with a probability of 0.1 % (D7.3).";
 
-/// What each group answers.
+/// What each group answers; behind them a sentence for each arm whose walls cannot.
 pub(crate) fn conclusions(summary: &CapacitySummary) -> Vec<String> {
     let of = |group: &CapacityGroup| {
         let stated = group.stated_cov.as_ref().map(|own| format!(" {}", of_stated(own, group)));
         conclusion(summary, group) + &left_open(summary, group) + &stated.unwrap_or_default()
     };
-    summary.groups.iter().map(of).collect()
+    let others: Vec<&CapacityGroup> = summary.groups.iter().filter(|group| !group.is_spread()).collect();
+    let alike = others.chunk_by(|a, b| a.name == b.name).map(|groups| without_scatter(summary, groups));
+    summary.spread().map(of).chain(alike).collect()
+}
+
+/// What is known of an arm whose walls are all alike, or of which there is one: at each stiffness its value, or on which side it lies.
+fn without_scatter(summary: &CapacitySummary, groups: &[&CapacityGroup]) -> String {
+    let [first, ..] = groups else { return String::new() };
+    let name = &first.name;
+    if first.random {
+        return format!("{name}: one wall alone shows no scatter; ask for more with --members.");
+    }
+    let at = |group: &CapacityGroup| match group.kn_pa_per_m {
+        Some(kn) if groups.len() > 1 => format!(" at kn {}", compact(kn)),
+        _ => String::new(),
+    };
+    let said = |group: &&CapacityGroup| match summary.question {
+        Question::Quantile(_) => {
+            // One wall shows no quantile, and has a value.
+            let value = summary.shown.shown(group.rungs.first()?.level);
+            Some(format!("{} {}{}", significant(value, 3), summary.shown.shown_unit(), at(group)))
+        }
+        // A share of walls that are all alike is 0 or 1.
+        _ => Some(format!("{}{}", if group.answer.value()? > 0.5 { "yes" } else { "no" }, at(group))),
+    };
+    let said: Vec<String> = groups.iter().filter_map(said).collect();
+    let said = if said.is_empty() { String::new() } else { format!(": {}", said.join(", ")) };
+    let open: String = groups.iter().map(|group| left_open(summary, group)).collect();
+    match summary.question {
+        Question::Quantile(_) => format!("{name}: nothing is drawn, so its walls are all alike{said}.{open}"),
+        Question::Below(level) | Question::Above(level) => {
+            let side = if matches!(summary.question, Question::Below(_)) { "below" } else { "above" };
+            let (level, unit) = (significant(summary.shown.shown(level), 3), summary.shown.shown_unit());
+            format!(
+                "{name}: nothing is drawn, so its walls are all alike; {side} {level} {unit}{said}.{open}"
+            )
+        }
+    }
 }
 
 /// The answer with what stiff joints bear, where rigid blocks leave values open.
@@ -49,16 +86,6 @@ fn conclusion(summary: &CapacitySummary, group: &CapacityGroup) -> String {
     let unit = summary.shown.shown_unit();
     let shown = |x: f64| summary.shown.shown(x);
     let name = name(group);
-    if !group.random {
-        // Where the load path ends before the wall falls its value is not known.
-        let value = group.answer.value().filter(|_| matches!(summary.question, Question::Quantile(_)));
-        return match value {
-            Some(value) => {
-                format!("{name}: nothing is drawn, every wall has {} {unit}.", significant(shown(value), 3))
-            }
-            None => format!("{name}: nothing is drawn, every wall is alike."),
-        };
-    }
     if let Some(repeats) = &group.repeats {
         return by_repeats(summary, group, repeats);
     }
@@ -274,7 +301,7 @@ pub(crate) fn supported(summary: &CapacitySummary) -> Vec<Vec<String>> {
         }
     };
     stated(&mut rows[0], "taken %");
-    for group in &summary.groups {
+    for group in summary.spread() {
         for own in &group.supported {
             let value = |of: Option<SupportedValue>| or_dash(of.map(|of| summary.shown.shown(of.value)), 3);
             let mut row = vec![

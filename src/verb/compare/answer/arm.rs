@@ -47,6 +47,9 @@ pub struct SelectedArm {
     /// The distribution of its values.
     #[serde(skip)]
     pub steps: Vec<EmpiricalStep>,
+    /// Its place among the arms of the study, which gives it its colour.
+    #[serde(skip)]
+    pub place: usize,
 }
 
 impl SelectedArm {
@@ -80,6 +83,7 @@ impl SelectedArm {
             moving_weight_share: mean_of(|m| m.weight_share),
             moving_length_share: mean_of(|m| m.length_share),
             steps: empirical(population.values.values(), &population.above),
+            place: index as usize,
         }
     }
 
@@ -100,6 +104,7 @@ impl SelectedArm {
         let shown = |step: &EmpiricalStep| EmpiricalStep { value: quantity.shown(step.value), ..*step };
         Ladder {
             arm: self.name.clone(),
+            place: self.place,
             random: self.random,
             kn: self.kn_pa_per_m,
             walls: self.walls - self.lost(),

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use crate::ensemble::{Compared, Contest, Quantity};
+use crate::stats;
 use crate::stats::selection::{Kind, pairs};
 use crate::stats::{Distributed, Dominance, NextPair, dominance, next_pair, probability_above};
 
@@ -31,6 +32,8 @@ pub struct ArmDifference {
     pub pairs: u64,
     /// See `pairs`.
     pub lost_pairs: u64,
+    /// The means of both over the pairs of walls that brought two values, in the unit of the quantity; null where there is no such pair.
+    pub means: Option<[f64; 2]>,
     /// By how much the first is better: its mean or its quantile is larger (a displacement smaller), or the probability of its failure
     /// smaller.
     pub better_by: Option<f64>,
@@ -64,7 +67,12 @@ impl ArmDifference {
         let difference = look.rule.difference(a, b, look.kinds.len());
         let pairs = pairs(a, b);
         let miss = 1.0 - contest.confidence;
-        let told: Vec<f64> = pairs.iter().filter_map(|(a, b)| a.zip(*b)).map(|(a, b)| a - b).collect();
+        let whole: Vec<(f64, f64)> = pairs.iter().filter_map(|(a, b)| a.zip(*b)).collect();
+        let told: Vec<f64> = whole.iter().map(|(a, b)| a - b).collect();
+        let quantity = Quantity::of(contest.study);
+        let mean = |of: fn(&(f64, f64)) -> f64| {
+            stats::mean(&whole.iter().map(of).collect::<Vec<_>>()).map(|strength| quantity.strength(strength))
+        };
         let zone = contest.same_within;
         ArmDifference {
             arm: names[0].to_owned(),
@@ -76,6 +84,7 @@ impl ArmDifference {
             },
             pairs: difference.pairs as u64,
             lost_pairs: difference.lost as u64,
+            means: mean(|pair| pair.0).zip(mean(|pair| pair.1)).map(|(a, b)| [a, b]),
             better_by: difference.value,
             interval: difference.interval,
             interval_whatever_failed: difference.whatever.filter(|_| difference.lost > 0),
@@ -85,8 +94,7 @@ impl ArmDifference {
             } else {
                 probability_above(&told, 0.0)
             },
-            distribution: dominance(distributed(a), distributed(b), miss)
-                .map(|own| levels(own, Quantity::of(contest.study))),
+            distribution: dominance(distributed(a), distributed(b), miss).map(|own| levels(own, quantity)),
         }
     }
 }

@@ -4,7 +4,7 @@ use crate::render::csv::Csv;
 use crate::render::document::{Captioned, Document, Layout, Part, Table};
 use crate::render::number::{with_interval, with_interval_against};
 use crate::verb::compare::answer::plot::Forest;
-use crate::verb::compare::answer::text::{conclusion, measure, table};
+use crate::verb::compare::answer::text::{MEANS, conclusion, measure, table};
 use crate::verb::compare::answer::{ArmDifference, ArmShown, SelectionSummary, title};
 use crate::verb::run::answer::fragility::{fragility, shares};
 
@@ -26,7 +26,8 @@ pub fn selection_document(summary: &SelectionSummary) -> Document<'_> {
         fragility(&title, &ladders, summary.shown),
     );
     let distributions = distributions.with_read_off(shares(&ladders, summary.shown));
-    let arms = Table { layout: Layout::Bare, ..Table::headed("Arms, the best first", table(summary)) };
+    let arms = Table::headed("Arms, the best first", table(summary));
+    let arms = Table { layout: Layout::Bare, caption: MEANS.to_owned(), ..arms };
     let tables = [arms, pairs(summary)].map(Part::Table);
     let figures = [forest, distributions].map(Part::Figure);
     Document {

@@ -30,6 +30,8 @@ pub struct Forest<'s> {
 /// An arm: how far it is behind the best one.
 struct Row {
     name: String,
+    /// Number of its colour and its marker.
+    place: usize,
     value: Option<f64>,
     interval: Option<[f64; 2]>,
     is_open: bool,
@@ -44,6 +46,7 @@ impl<'s> Forest<'s> {
             let interval = rival.map(|own| own.interval_whatever_failed.or(own.interval));
             Row {
                 name: format!("{} ({})", shortened(&arm.name, LONGEST_NAME), arm.walls),
+                place: arm.place,
                 value: rival.map_or(Some(0.0), |own| own.better_by).map(shown),
                 interval: interval.flatten().map(|ends| ends.map(shown)),
                 is_open: rival.is_some_and(|own| own.shown == ArmShown::Open),
@@ -77,7 +80,7 @@ impl<'s> Forest<'s> {
         chart.draw_series([PathElement::new([(0.0, 0.0), (0.0, count)], line)])?;
         for (index, row) in self.rows.iter().enumerate() {
             let y = index as f64 + 0.5;
-            let own = colour(index).stroke_width(2 * self.pen.scale);
+            let own = colour(row.place).stroke_width(2 * self.pen.scale);
             if let Some([low, high]) = row.interval {
                 match row.is_open {
                     true => drop(chart.draw_series(DashedLineSeries::new(
@@ -90,7 +93,7 @@ impl<'s> Forest<'s> {
                 }
             }
             if let Some(value) = row.value {
-                chart.plotting_area().draw(&filled((value, y), index, self.pen.scale))?;
+                chart.plotting_area().draw(&filled((value, y), row.place, self.pen.scale))?;
             }
             let (_, pixel) = chart.backend_coord(&(x[0], y));
             let style = self.pen.font(17).pos(Pos::new(HPos::Right, VPos::Center));

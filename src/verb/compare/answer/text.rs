@@ -73,9 +73,9 @@ fn answer(summary: &SelectionSummary) -> String {
         (_, 0, 0) => {
             format!("{best} is the best, by {} (confidence {}).", measure(summary), summary.confidence)
         }
-        (0, _, 0) => format!("{best} and {} cannot be told apart within {zone}.", names(&same)),
+        (0, _, 0) => format!("{best} and {} are the same within {zone}.", names(&same)),
         (_, _, 0) => format!(
-            "{best} is better than {}; it cannot be told apart from {} within {zone}.",
+            "{best} is better than {}, and the same as {} within {zone}.",
             names(&better),
             names(&same)
         ),
@@ -93,7 +93,7 @@ fn nearest(summary: &SelectionSummary, rival: &ArmDifference) -> String {
     );
     let next = rival.next_wall.interval.map(|ends| ends.map(|x| (100.0 * x).round() / 100.0));
     format!(
-        "Over {}: {by}{}{unit}; stronger with {} (the next wall) and {} (the mean).",
+        "Over {}: {by}{}{unit}; stronger with a probability of {} (the next wall) and {} (the mean).",
         shortened(&rival.over, LONGEST_NAME),
         if unit.is_empty() { "" } else { " " },
         with_interval(rival.next_wall.probability, next, 2),
@@ -164,6 +164,9 @@ fn names(all: &[&str]) -> String {
     }
 }
 
+/// What the two columns of means are: walls of arms are paired, and the best arm has others than each arm.
+pub(crate) const MEANS: &str = "mean: over the walls that the arm shares with the best one; best: that of the best arm over the same walls.";
+
 /// A line per arm, with the heads in the first row.
 pub(crate) fn table(summary: &SelectionSummary) -> Vec<Vec<String>> {
     let unit = summary.shown.shown_unit();
@@ -177,18 +180,21 @@ pub(crate) fn table(summary: &SelectionSummary) -> Vec<Vec<String>> {
         "kn Pa/m".to_owned(),
         "n".to_owned(),
         format!("mean {unit}"),
+        format!("best {unit}"),
         "COV %".to_owned(),
     ];
     header.extend(asked);
     header.extend(["behind the best", "shown", "falls by", "hinge m"].map(str::to_owned));
     let mut rows = vec![header];
+    let mean = |value: Option<f64>| or_dash(value.map(|x| summary.shown.shown(x)), 3);
     for arm in &summary.arms {
         let rival = summary.of_best().find(|own| own.over == arm.name);
         let mut row = vec![
             arm.name.clone(),
             compact(arm.kn_pa_per_m),
             arm.walls.to_string(),
-            or_dash(arm.mean.value.map(|x| summary.shown.shown(x)), 3),
+            mean(rival.map_or(arm.mean.value, |own| own.means.map(|[_, own]| own))),
+            mean(rival.and_then(|own| own.means).map(|[best, _]| best)),
             or_dash(arm.cov.map(|cov| 100.0 * cov), 2),
         ];
         row.extend(match summary.question {

@@ -126,6 +126,8 @@ pub fn curves(summary: &Summary) -> Vec<Curve> {
 pub struct Ladder {
     /// Name of the arm.
     pub arm: String,
+    /// Its place among the arms of the study, which gives it its colour.
+    pub place: usize,
     /// True for an arm of random walls, drawn with a band.
     pub random: bool,
     /// Normal stiffness of the joints (Pa/m).
@@ -153,12 +155,15 @@ pub(crate) fn middle_kn(summary: &Summary) -> Option<f64> {
 pub fn ladders(summary: &Summary) -> Vec<Ladder> {
     let Some(kn) = middle_kn(summary) else { return Vec::new() };
     let capacity = summary.arms.iter().filter(|arm| arm.shown == Quantity::CollapseAngle);
+    let mut names: Vec<&str> = summary.arms.iter().map(|arm| arm.arm.as_str()).collect();
+    names.dedup();
     capacity
         .filter(|arm| arm.kn_pa_per_m == kn)
         .map(|arm| {
             let walls = arm.outcomes.get("collapsed").copied().unwrap_or(0) + arm.stood_to_the_end;
             Ladder {
                 arm: arm.arm.clone(),
+                place: names.iter().position(|name| *name == arm.arm).unwrap_or_default(),
                 random: arm.random,
                 kn,
                 walls,

@@ -1,5 +1,7 @@
 //! The files of a report, each written whole or not at all.
 
+use std::fs;
+use std::io::ErrorKind;
 use std::path::Path;
 
 use anyhow::{Context, Result};
@@ -102,7 +104,26 @@ pub(crate) fn write_summary(summary: &Summary, dir: &Path, beside: Option<&Earli
     if !ladders(summary).is_empty() {
         write(FRAGILITY, &fragility_csv(&summary.arms))?;
     }
-    figures(summary, beside).iter().try_for_each(|figure| write_captioned(dir, figure))
+    let figures = figures(summary, beside);
+    figures.iter().try_for_each(|figure| write_captioned(dir, figure))?;
+    // Without an earlier run beside it one stiffness has no figure, and may have had one.
+    curves.first().map_or(Ok(()), |curve| match curve.quantity.figure() {
+        over if figures.iter().any(|figure| figure.file == over) => Ok(()),
+        over => without_figure(dir, over),
+    })
+}
+
+/// Removes a figure that an earlier run wrote into a folder.
+fn without_figure(dir: &Path, name: &str) -> Result<()> {
+    for file in ["svg", "png"].map(|ending| dir.join(format!("{name}.{ending}"))) {
+        match fs::remove_file(&file) {
+            Err(error) if error.kind() != ErrorKind::NotFound => {
+                return Err(error).context(file.display().to_string());
+            }
+            _ => {}
+        }
+    }
+    Ok(())
 }
 
 /// Writes a document into an existing folder: the answer as JSON under a name, the files beside it, its figures. The same answer gives the

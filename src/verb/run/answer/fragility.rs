@@ -21,10 +21,10 @@ pub(crate) fn fragility(title: &str, ladders: &[Ladder], quantity: Quantity) -> 
         Quantity::CollapseAngle => ["tilt (deg)", "share of walls that have collapsed"],
         _ => [quantity.axis(), "share of walls with less"],
     };
-    let series = ladders.iter().enumerate().map(|(index, ladder)| {
+    let series = ladders.iter().map(|ladder| {
         let flats = if ladder.random { ladder.flats(ends[1]) } else { Vec::new() };
         let marks = vec![Mark::Flats(flats), Mark::Line(ladder.line(ends))];
-        Series { index, label: ladder.label(), marks }
+        Series { index: ladder.place, label: ladder.label(), marks }
     });
     Chart {
         caption: format!("{title}, kn = {kn}"),
@@ -40,7 +40,7 @@ pub(crate) fn shares(ladders: &[Ladder], quantity: Quantity) -> Option<ReadOff> 
         let band = |ends: [f64; 2]| ladder.random.then_some(ends);
         let steps =
             ladder.steps.iter().map(|step| (step.value, Some(step.probability), band(step.pointwise)));
-        Trace { steps: true, ..Trace::through(&ladder.arm, steps) }
+        Trace { steps: true, colour: Some(ladder.place), ..Trace::through(&ladder.arm, steps) }
     };
     ReadOff::with(Scale::of(quantity.axis()), Scale::of("share of walls"), ladders.iter().map(trace))
 }

@@ -1,21 +1,25 @@
 //! The figure over kn: the quantity against the stiffness of the joints, and the means of an earlier run.
 
-use crate::render::axes::{Axes, Axis, exponent};
+use crate::render::axes::{Axes, Axis, exponent, superscript};
 use crate::render::chart::{Chart, Mark, Series, runs};
 use crate::render::document::{Captioned, ReadOff, Scale, Trace};
 use crate::render::number::{range, shortened};
 use crate::verb::run::answer::beside::Earlier;
 use crate::verb::run::answer::figure::{Curve, LONGEST_NAME, Point};
 
-/// The figure of curves; `None` where there are none.
+/// The figure of curves; `None` where there are none, or one stiffness alone and no earlier run beside it: the table shows more than a
+/// figure of one point.
 pub fn over_kn<'a>(title: &str, curves: &[Curve], beside: Option<&Earlier>) -> Option<Captioned<'a>> {
     let quantity = curves.first()?.quantity;
+    let kn = range(curves.iter().flat_map(|curve| &curve.points).map(|point| point.kn));
+    if beside.is_none() && kn.is_some_and(|[low, high]| low == high) {
+        return None;
+    }
     let caption = format!(
         "The {} of each arm over the normal stiffness kn of the joints; of random arms the mean with its 95 % interval and a band of \
          one standard deviation. The numbers are in the table of arms.",
         quantity.axis()
     );
-    let kn = range(curves.iter().flat_map(|curve| &curve.points).map(|point| point.kn));
     let power = kn.map_or(0, |[low, _]| exponent(low));
     // A power of ten by its digits is exact.
     let unit: f64 = format!("1e{power}").parse().unwrap_or(1.0);
@@ -81,19 +85,4 @@ pub(crate) fn ends(curves: &[Curve], beside: Option<&Earlier>, unit: f64) -> [[f
     let height = if top > bottom { top - bottom } else { 1.0 };
     let below = if bottom < 0.0 { 0.05 * height } else { 0.0 };
     [[low - room, high + room], [bottom - below, bottom + 1.08 * height]]
-}
-
-/// An integer in superscript digits.
-fn superscript(number: i32) -> String {
-    number
-        .to_string()
-        .chars()
-        .map(|c| match c {
-            '-' => '\u{207b}',
-            '1' => '\u{b9}',
-            '2' => '\u{b2}',
-            '3' => '\u{b3}',
-            digit => char::from_u32(0x2070 + digit.to_digit(10).unwrap_or(0)).unwrap_or(digit),
-        })
-        .collect()
 }

@@ -1,5 +1,6 @@
 //! The quantity over the values of a swept key: the figure and the table beside it.
 
+use crate::render::axes;
 use crate::render::axes::{Axes, Axis};
 use crate::render::chart::Chart;
 use crate::render::csv::{Cell, Csv};
@@ -23,15 +24,16 @@ pub(crate) fn over_key<'a>(title: &str, summary: &Summary) -> Option<Captioned<'
     let key = first.settings.iter().find(is_number)?.key.clone();
     let curves = curves_over(summary, &key, middle_kn(summary)?);
     let quantity = curves.first()?.quantity;
+    let over = axes::over_key(&key);
     let caption = format!(
-        "The {} over {key}; of random arms the mean with its 95 % interval and a band of one standard deviation. The numbers are in the \
+        "The {} over {key}, the {over}; of random arms the mean with its 95 % interval and a band of one standard deviation. The numbers are in the \
          table of arms.",
         quantity.axis()
     );
     let [x, y] = ends(&curves, None, 1.0);
     let chart = Chart {
         caption: title.to_owned(),
-        axes: Axes { x: Axis::new(key.clone(), x, 10), y: Axis::new(quantity.axis(), y, 8) },
+        axes: Axes { x: Axis::new(over.clone(), x, 10), y: Axis::new(quantity.axis(), y, 8) },
         series: curves
             .iter()
             .enumerate()
@@ -42,8 +44,8 @@ pub(crate) fn over_key<'a>(title: &str, summary: &Summary) -> Option<Captioned<'
     let trace = |curve: &Curve| {
         Trace::through(&curve.arm, curve.points.iter().map(|point| (point.kn, point.mean, point.mean_ci)))
     };
-    let read_off = ReadOff::with(Scale::of(&key), Scale::of(quantity.axis()), curves.iter().map(trace));
-    Some(Captioned::chart(SWEEP, &format!("Over {key}"), caption, chart).with_read_off(read_off))
+    let read_off = ReadOff::with(Scale::of(&over), Scale::of(quantity.axis()), curves.iter().map(trace));
+    Some(Captioned::chart(SWEEP, &format!("Over {over}"), caption, chart).with_read_off(read_off))
 }
 
 /// The curves over a key; points have its value in the place of kn, and are in its order.

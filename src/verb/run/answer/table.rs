@@ -118,6 +118,7 @@ fn ratios(summary: &Summary) -> String {
     let mut columns: Vec<Vec<String>> = Vec::new();
     let mut pairs: Vec<(&str, &str)> = Vec::new();
     let mut kns: Vec<f64> = Vec::new();
+    let mut has_exact = false;
     for comparison in &summary.comparisons {
         if !kns.contains(&comparison.kn_pa_per_m) {
             kns.push(comparison.kn_pa_per_m);
@@ -133,6 +134,7 @@ fn ratios(summary: &Summary) -> String {
             columns.len() - 1
         });
         let exact = comparison.ratio_ci.is_some_and(|[low, high]| low == high);
+        has_exact |= exact;
         columns[index].push(match exact {
             true => or_dash(comparison.ratio, 3),
             false => with_interval_against(comparison.ratio, comparison.ratio_ci, 3, 1.0),
@@ -143,7 +145,8 @@ fn ratios(summary: &Summary) -> String {
     }
     let first: Vec<String> =
         std::iter::once("kn Pa/m".to_string()).chain(kns.iter().copied().map(compact)).collect();
-    let mut text = "\nRatios of means (without brackets: neither arm is random)\n".to_string();
+    let note = if has_exact { " (without brackets: neither arm is random)" } else { "" };
+    let mut text = format!("\nRatios of means{note}\n");
     text.push_str(&side_by_side(&first, &columns));
     text
 }

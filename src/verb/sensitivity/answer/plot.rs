@@ -57,7 +57,8 @@ impl<'s> SharesPlot<'s> {
             root.draw(&Text::new(percent.to_string(), self.pen.at(x, self.bottom() + 16), font))?;
         }
         let middle = (LEFT + WIDTH - RIGHT) / 2;
-        let words = format!("share of the variance of {} (%)", self.summary.shown.axis());
+        let words =
+            format!("share of the variance of the {} (%)", self.summary.shown.name().replace('_', " "));
         root.draw(&Text::new(
             words,
             self.pen.at(middle, self.bottom() + 42),

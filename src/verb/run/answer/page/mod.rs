@@ -12,5 +12,5 @@ mod wall;
 pub use cite::{Citation, citation, citation_of_run};
 pub use closing::{document_page, element_page};
 pub use origin::PageOrigin;
-pub use run::{DrawnWall, RunPage, chosen_walls, run_page};
+pub use run::{DrawnWall, RunPage, called, chosen_walls, run_page};
 pub use wall::{WallPage, WallTable, wall_page};

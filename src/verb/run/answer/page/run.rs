@@ -13,6 +13,7 @@ use crate::render::number::{compact, or_dash, significant, stiffness, with_inter
 use crate::render::picture::Picture;
 use crate::shape::Polyhedron;
 use crate::study::{Loaded, Study};
+use crate::verb::run::answer::comparison::Comparison;
 use crate::verb::run::answer::conclusion::sentences;
 use crate::verb::run::answer::demand::DemandSummary;
 use crate::verb::run::answer::figure::title;
@@ -32,7 +33,7 @@ const MOST_ROWS: usize = 3000;
 /// A wall that is drawn on the page.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DrawnWall {
-    /// Which of the walls it is: the weakest, median or strongest.
+    /// Which of the walls it is: the weakest, median or strongest of its arm, or the weakest of all.
     pub which: &'static str,
     /// Its place in the ensemble.
     pub task: Task,
@@ -62,7 +63,7 @@ pub struct RunPage<'a> {
 #[derive(Serialize)]
 struct Filled {
     title: String,
-    question: String,
+    about: String,
     answer: Vec<String>,
     explanation: String,
     arms: Table,
@@ -85,10 +86,34 @@ struct Filled {
     citation: Citation,
 }
 
-/// The weakest, the median and the strongest wall of the first arm that is random, at its first stiffness; the one wall where none is.
+/// What the weakest wall of another arm is called.
+const WEAKEST_OF_ALL: &str = "weakest of all";
+
+/// The weakest, the median and the strongest wall of the first arm that is random, at its first stiffness, and the weakest one of all arms
+/// where that is of another; the one wall where no arm is random.
 pub fn chosen_walls(study: &Study, rows: &[Row]) -> Vec<(&'static str, Task)> {
-    let quantity = Quantity::of(study);
     let arm = study.arms.iter().position(is_random).unwrap_or(0);
+    let found = by_strength(study, rows, arm);
+    let task = |at: usize| Task { arm: arm as u32, point: 0, member: found[at].1 };
+    let mut chosen = match found.len() {
+        0 => Vec::new(),
+        1 => vec![("only", task(0))],
+        2 => vec![("weakest", task(0)), ("strongest", task(1))],
+        n => vec![("weakest", task(0)), ("median", task((n - 1) / 2)), ("strongest", task(n - 1))],
+    };
+    let weakest = |arm: usize| {
+        by_strength(study, rows, arm).first().map(|(strength, member)| (*strength, arm, *member))
+    };
+    let of_all = (0..study.arms.len()).filter_map(weakest).min_by(|a, b| a.0.total_cmp(&b.0));
+    if let Some((_, other, member)) = of_all.filter(|(_, other, _)| *other != arm) {
+        chosen.push((WEAKEST_OF_ALL, Task { arm: other as u32, point: 0, member }));
+    }
+    chosen
+}
+
+/// The walls of an arm at its first stiffness that bring a value, the weakest first, each with its strength.
+fn by_strength(study: &Study, rows: &[Row], arm: usize) -> Vec<(f64, u64)> {
+    let quantity = Quantity::of(study);
     let own = rows.iter().filter(|row| row.arm_index as usize == arm && row.point == 0);
     let mut found: Vec<(f64, u64)> = own
         .filter_map(|row| match quantity.observed(row) {
@@ -99,13 +124,7 @@ pub fn chosen_walls(study: &Study, rows: &[Row]) -> Vec<(&'static str, Task)> {
         })
         .collect();
     found.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-    let task = |at: usize| Task { arm: arm as u32, point: 0, member: found[at].1 };
-    match found.len() {
-        0 => Vec::new(),
-        1 => vec![("only", task(0))],
-        2 => vec![("weakest", task(0)), ("strongest", task(1))],
-        n => vec![("weakest", task(0)), ("median", task((n - 1) / 2)), ("strongest", task(n - 1))],
-    }
+    found
 }
 
 /// The page of a run.
@@ -126,6 +145,7 @@ pub fn run_page(of: &RunPage<'_>) -> Result<String> {
     let figures = figures(&summary, None).into_iter().chain(force_figure(study, of.rows, &summary));
     let figures = figures.map(|figure| figure.drawing()).collect::<Result<Vec<_>>>()?;
     let marks = marks(of, has_rows);
+    let name = format!("Study {}", title(&summary));
     let mut answer = sentences(&summary);
     if answer.len() > 1 {
         // The means are the answer; how many walls they rest on comes behind.
@@ -135,8 +155,8 @@ pub fn run_page(of: &RunPage<'_>) -> Result<String> {
     answer.splice(0..0, demand.and_then(DemandSummary::sentence));
     let against = demand.map(|own| Table::headed(&own.heading(), own.rows()));
     let filled_with = Filled {
-        title: format!("Study {}", title(&summary)),
-        question: summary.question.clone(),
+        title: if summary.question.is_empty() { name.clone() } else { summary.question.clone() },
+        about: if summary.question.is_empty() { String::new() } else { name },
         answer,
         explanation: explanation(quantity),
         arms: Table::headed("", arm_rows(&summary.arms)),
@@ -187,7 +207,7 @@ fn task(row: &Row) -> Task {
 
 /// Where a drawn wall's figure is.
 fn figure_id(which: &str) -> String {
-    format!("figure-{which}")
+    format!("figure-{}", which.replace(' ', "-"))
 }
 
 /// The marks of the distribution, a line for each arm and stiffness that has any.
@@ -213,7 +233,8 @@ fn marks(of: &RunPage<'_>, has_rows: bool) -> Vec<strip::Row> {
         };
         let marks: Vec<Mark> = same.iter().filter_map(mark).collect();
         if !marks.is_empty() {
-            lines.push(strip::Row { arm: same[0].arm.clone(), kn: same[0].kn_pa_per_m, marks });
+            let (first, place) = (&same[0], same[0].arm_index as usize);
+            lines.push(strip::Row { arm: first.arm.clone(), place, kn: first.kn_pa_per_m, marks });
         }
     }
     lines
@@ -235,24 +256,31 @@ fn solid(drawn: &[DrawnWall]) -> Option<Solid> {
             from_front: own.picture.from_front,
         })
         .collect();
-    let names: Vec<&str> = drawn.iter().map(|own| own.which).collect();
+    let names = listed(drawn);
     let caption = format!(
-        "The {} wall in three dimensions, from rest through the collapse. Movements at rest are magnified, those of the fall are not.",
-        names.join(", the ")
+        "The {names} in three dimensions, from rest through the collapse. Movements at rest are magnified, those of the fall are not."
     );
     Solid::of("figure-solid", &caption, &walls)
 }
 
+/// What one of the walls that are drawn is called.
+pub fn called(which: &str) -> String {
+    if which == WEAKEST_OF_ALL { "weakest wall of all".to_owned() } else { format!("{which} wall") }
+}
+
+/// All of some walls in a row.
+fn listed(drawn: &[DrawnWall]) -> String {
+    let all: Vec<String> = drawn.iter().map(|own| called(own.which)).collect();
+    all.join(", the ")
+}
+
 fn about_drawn(study: &Study, drawn: &[DrawnWall]) -> String {
-    let Some(first) = drawn.first() else { return String::new() };
-    let arm = &study.arms[first.task.arm as usize];
-    let walls: Vec<&str> = drawn.iter().map(|own| own.which).collect();
-    format!(
-        "Of arm {} at kn {}: the {} wall. pirca wall draws any other.",
-        arm.name,
-        stiffness(arm.kn_points[0]),
-        walls.join(", the ")
-    )
+    let of = |same: &[DrawnWall]| {
+        let arm = &study.arms[same[0].task.arm as usize];
+        format!("Of arm {} at kn {}: the {}.", arm.name, stiffness(arm.kn_points[0]), listed(same))
+    };
+    let arms: Vec<String> = drawn.chunk_by(|a, b| a.task.arm == b.task.arm).map(of).collect();
+    if arms.is_empty() { String::new() } else { format!("{} pirca wall draws any other.", arms.join(" ")) }
 }
 
 fn drawing(of: &RunPage<'_>, own: &DrawnWall) -> Drawing {
@@ -265,7 +293,7 @@ fn drawing(of: &RunPage<'_>, own: &DrawnWall) -> Drawing {
         Observed::Above(x) => format!(", above {}", shown(x)),
         Observed::Nothing => String::new(),
     };
-    let title = format!("The {} wall: number {}{value}", own.which, own.task.member);
+    let title = format!("The {}: number {}{value}", called(own.which), own.task.member);
     Drawing::described(&figure_id(own.which), &title, &own.ending, &own.picture.svg())
 }
 
@@ -348,15 +376,16 @@ fn quantiles(summary: &Summary) -> Table {
 }
 
 fn ratios(summary: &Summary) -> Table {
+    let is_exact = |one: &Comparison| one.ratio_ci.is_some_and(|[low, high]| low == high);
     let rows = summary.comparisons.iter().map(|one| {
-        let exact = one.ratio_ci.is_some_and(|[low, high]| low == high);
-        let ratio = match exact {
+        let ratio = match is_exact(one) {
             true => or_dash(one.ratio, 3),
             false => with_interval_against(one.ratio, one.ratio_ci, 3, 1.0),
         };
         vec![one.arm.clone(), one.over.clone(), compact(one.kn_pa_per_m), ratio]
     });
-    let caption = "Without brackets: neither arm is random.".to_owned();
+    let has_exact = summary.comparisons.iter().any(is_exact);
+    let caption = if has_exact { "Without brackets: neither arm is random." } else { "" }.to_owned();
     Table { caption, ..Table::new("Ratios of means", &["arm", "over", "kn Pa/m", "ratio"], rows.collect()) }
 }
 

@@ -1,7 +1,10 @@
 //! The distribution of an ensemble: a mark for every wall, stacked where walls are alike, each a link to its row.
 
+use plotters::style::RGBColor;
+
 use crate::ensemble::Quantity;
 use crate::render::axes::decimals;
+use crate::render::marker::colour;
 use crate::render::markup::escaped;
 use crate::render::number::{compact, range, shortened, significant};
 use crate::render::pen::FONT_NAME;
@@ -21,6 +24,8 @@ const LONGEST_NAME: usize = 24;
 pub struct Row {
     /// Name of the arm.
     pub arm: String,
+    /// Its place among the arms of the study, which gives it its colour.
+    pub place: usize,
     /// Normal stiffness of the joints (Pa/m).
     pub kn: f64,
     /// Its walls.
@@ -84,6 +89,8 @@ pub fn strip(rows: &[Row], quantity: Quantity) -> String {
 
 /// The marks of a line, stacked in columns of their own width; a column that is too high is pressed together.
 fn walls(row: &Row, place: &dyn Fn(f64) -> f64, ground: f64, quantity: Quantity) -> String {
+    let RGBColor(red, green, blue) = colour(row.place);
+    let own = format!("#{red:02x}{green:02x}{blue:02x}");
     let column = |mark: &Mark| ((place(mark.value) - LEFT) / (2.0 * RADIUS)).floor() as i64;
     let mut ordered: Vec<&Mark> = row.marks.iter().collect();
     ordered.sort_by(|a, b| a.value.total_cmp(&b.value));
@@ -100,10 +107,12 @@ fn walls(row: &Row, place: &dyn Fn(f64) -> f64, ground: f64, quantity: Quantity)
             let fill = match (mark.is_drawn, mark.stood) {
                 (true, _) => "#000000",
                 (false, true) => "#ffffff",
-                (false, false) => "#9ab4cc",
+                (false, false) => &own,
             };
+            // What is drawn below has a ring about it, which is seen in the colour of any arm.
+            let (radius, edge) = if mark.is_drawn { (RADIUS + 1.0, &own[..]) } else { (RADIUS, "#333333") };
             let circle = format!(
-                "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{RADIUS}\" fill=\"{fill}\" stroke=\"#333333\"><title>{}</title></circle>",
+                "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{radius}\" fill=\"{fill}\" stroke=\"{edge}\"><title>{}</title></circle>",
                 escaped(&said)
             );
             text += &match &mark.to {
@@ -160,11 +169,16 @@ mod tests {
             to: Some(format!("wall-{member}")),
             is_drawn: false,
         };
-        let rows =
-            [Row { arm: "a<b".into(), kn: 5e7, marks: vec![mark(0, 13.0), mark(1, 13.0), mark(2, 15.0)] }];
+        let rows = [Row {
+            arm: "a<b".into(),
+            place: 1,
+            kn: 5e7,
+            marks: vec![mark(0, 13.0), mark(1, 13.0), mark(2, 15.0)],
+        }];
         let text = strip(&rows, Quantity::CollapseAngle);
         assert!(text.contains("<a href=\"#wall-2\" aria-label=\"a&lt;b, wall 2: 15.00 deg\">"), "{text}");
         assert!(!text.contains("a<b"), "{text}");
+        assert_eq!(text.matches("fill=\"#d55e00\"").count(), 3, "in the colour of its arm: {text}");
         // Two walls alike stand one on the other.
         let heights: Vec<&str> =
             text.split("cy=\"").skip(1).filter_map(|rest| rest.split('"').next()).collect();
