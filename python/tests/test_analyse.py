@@ -125,7 +125,7 @@ def test_a_unit_scales_and_a_generated_wall_is_taken(told, studies):
 def test_files_and_figure_are_written_where_asked(empty_folder):
     answer = pirca.analyse(tower(), phi_deg=35, fixed=[0], density_kg_per_m3=2400, out="seen")
     assert answer.out == empty_folder.relative_to(empty_folder) / "seen"
-    assert answer.figures == ["mechanism"] and answer.figure()._repr_svg_().startswith("<svg")
+    assert answer.figures == ["mechanism", "views"] and answer.figure()._repr_svg_().startswith("<svg")
     assert (answer.out / "report.html").is_file()
     # What was asked can be asked again.
     assert same(answer, pirca.analyse("seen/wall.json", phi_deg=35))

@@ -10,7 +10,6 @@ use crate::render::csv::Csv;
 use crate::render::document::Drawing;
 use crate::render::draw::svg;
 use crate::render::number::{significant, with_interval};
-use crate::render::text::aligned_to;
 use crate::solve::STANDARD_GRAVITY;
 use crate::study::Site;
 use crate::terminal::failure::Failure;
@@ -21,8 +20,6 @@ use crate::verify::ByDisplacement;
 
 /// Digits of a ratio and of a length.
 const DIGITS: usize = 3;
-/// Characters of the longest name of a check.
-const LONGEST: usize = 60;
 
 /// A wall verified, or why it is not.
 pub(crate) struct Verification {
@@ -71,23 +68,20 @@ impl Verification {
         let (mechanism, verified) = (&checked.mechanism, &checked.verified);
         let in_g = |a: f64| format!("{} g", significant(a / STANDARD_GRAVITY, DIGITS));
         let in_mm = |d: f64| format!("{} mm", significant(1e3 * d, DIGITS));
-        let row = |cells: [String; 4]| cells.to_vec();
-        let mut rows = vec![["check", "bears", "asked", "ratio"].map(str::to_owned).to_vec()];
         let linear = &verified.linear;
-        rows.push(row([
-            format!("acceleration, q = {}", self.site.code.behaviour_factor),
-            in_g(linear.capacity),
-            in_g(linear.demand),
-            significant(linear.ratio(), DIGITS),
-        ]));
+        let line = |check: String, [bears, asked]: [String; 2], ratio: f64| {
+            format!("  {check}: bears {bears} of {asked} asked, ratio {}\n", significant(ratio, DIGITS))
+        };
+        let q = self.site.code.behaviour_factor;
+        let by_acceleration = [linear.capacity, linear.demand].map(in_g);
+        let mut checks = line(format!("acceleration, q = {q}"), by_acceleration, linear.ratio());
         for own in &verified.nonlinear {
-            let name = format!("{}: displacement, T = {} s", own.state, significant(own.period, DIGITS));
-            rows.push(row([name, in_mm(own.capacity), in_mm(own.demand), significant(own.ratio(), DIGITS)]));
+            let check = format!("displacement, {} at T = {} s", own.state, significant(own.period, DIGITS));
+            checks += &line(check, [own.capacity, own.demand].map(in_mm), own.ratio());
         }
-        let table: String = aligned_to(rows, LONGEST).lines().map(|line| format!("  {line}\n")).collect();
         let oscillator = &mechanism.oscillator;
         let mut text = format!(
-            "{headline}\n{table}  mechanism: {}, {:.1} % of the weight; alpha0 = {:.4}, e* = {:.3}, M* = {} kg, a0* = {} m/s^2 with a confidence factor of {}\n",
+            "{headline}\n{checks}  mechanism: {}, {:.1} % of the weight; alpha0 = {:.4}, e* = {:.3}, M* = {} kg, a0* = {} m/s^2 with a confidence factor of {}\n",
             mechanism.name,
             100.0 * mechanism.share,
             mechanism.multiplier,
