@@ -161,7 +161,7 @@ fn recorded(t: &mut Reader<'_>, folder: &Path) -> Option<Spectrum> {
     let (name, scale) = (t.text("record"), t.real("scale"));
     let (name, scale) = (name?, scale?);
     let read = Motion::read(&folder.join(name))
-        .and_then(|motion| Ok(motion.towards(&Vec3::y()).unwrap_or_else(|_| motion.clone())));
+        .map(|motion| motion.towards(&Vec3::y()).unwrap_or_else(|_| motion.clone()));
     match read {
         Ok(motion) => Some(Spectrum::of_record(&motion.scaled(scale).accelerogram(&Vec3::y()))),
         Err(fault) => {

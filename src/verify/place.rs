@@ -44,7 +44,10 @@ impl Place {
         match self {
             Place::Ground => ground,
             Place::Height(modes) => {
-                let square = |mode: &Mode| mode.floor(spectrum, period, damping_percent).powi(2);
+                let square = |mode: &Mode| {
+                    let own = mode.floor(spectrum, period, damping_percent);
+                    own * own
+                };
                 let floor = modes.iter().map(square).fold(0.0, |a, x| a + x).sqrt();
                 let is_long = modes.first().is_some_and(|first| period > first.period);
                 if is_long { floor.max(ground) } else { floor }

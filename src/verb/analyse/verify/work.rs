@@ -73,13 +73,19 @@ pub(super) fn checked(
     if !matches!(found.outcome, Outcome::Collapsed { .. }) {
         return Err(format!("limit analysis finds no mechanism: {}", found.outcome.reason()));
     }
-    let mechanism = Mechanism::of(wall, &found, towards).ok_or("what moves does not move along the load")?;
+    let mut mechanism =
+        Mechanism::of(wall, &found, towards).ok_or("what moves does not move along the load")?;
     let kn = asked.kn.as_ref().filter(|_| asked.solver().is_elastic()).map_or(RIGID, Known::middle);
     let stiff = Coulomb { normal: NormalLaw::Linear { kn }, ks: asked.ks.unwrap_or(0.5 * kn), ..own };
     let task = task(asked, (wall, settlements), &stiff, fit);
     let far = FURTHEST * fit.thickness;
     let pushed = Pushover::of(&task, mechanism.control, mechanism.multiplier, far)
         .ok_or("with elastic joints it does not come to rest under its own weight")?;
+    // What elastic joints bear less than rigid ones, they bear less before the mechanism sets in.
+    if asked.solver().is_elastic() {
+        let peak = pushed.points.iter().map(|point| point[1]).fold(0.0, f64::max);
+        mechanism.multiplier = mechanism.multiplier.min(peak);
+    }
     let oscillator = mechanism.oscillator;
     let point = |[moved, level]: &[f64; 2]| {
         [moved * oscillator.per_control, oscillator.acceleration(*level, site.confidence)]
