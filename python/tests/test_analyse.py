@@ -157,7 +157,7 @@ def test_blocks_that_make_no_wall_are_refused():
     refused(pirca.UsageError, r"shape \(8, 2\)", [(np.zeros((8, 2)), [[0, 1, 2]])])
     refused(pirca.UsageError, "block 0: .*<class 'int'> is none", [1])
     refused(pirca.UsageError, "indices of its corners", [(np.zeros((8, 3)), [0, 1, 2])])
-    refused(pirca.UsageError, "--kn PA_PER_M is required", solver="implicit")
+    refused(pirca.UsageError, "--kn PA_PER_M is required", solver="explicit")
     refused(pirca.UsageError, "allowed is a number from 0 to 89 degrees", phi_deg=95)
     refused(pirca.UsageError, r"a range is \(low, high\)", phi_deg=(30, 34, 38))
 
