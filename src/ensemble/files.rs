@@ -18,6 +18,18 @@ pub fn replace_file(path: &Path, bytes: &[u8]) -> Result<(), RunError> {
     replacement.end()
 }
 
+/// Removes a file if it is there, and says whether it was.
+///
+/// # Errors
+/// [`RunError::File`] when it is there and cannot be removed.
+pub fn remove_file(path: &Path) -> Result<bool, RunError> {
+    match fs::remove_file(path) {
+        Ok(()) => Ok(true),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(false),
+        Err(error) => Err(RunError::file("remove", path, error)),
+    }
+}
+
 /// A file that takes the place of another once it is whole: written beside it under the name `<name>.partial`, brought to the disk, then
 /// renamed. Dropped before its end it leaves nothing behind.
 pub(super) struct Replacement {

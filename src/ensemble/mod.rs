@@ -52,7 +52,7 @@ pub use elements::{ELEMENTS_CSV, ElementRow, Timed, evaluate_element, run_elemen
 pub use enough::{Look, come_to};
 pub use error::{MemberFault, RunError};
 pub use evaluate::{build, evaluate, solve};
-pub use files::replace_file;
+pub use files::{remove_file, replace_file};
 pub use finished::{finished, identity};
 pub use given::{Unsure, given_points, predicted};
 pub use ledger::Ledger;

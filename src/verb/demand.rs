@@ -1,8 +1,9 @@
 //! What walls must bear, as it is asked for, and what its answer says to a program that waits for the exit code.
 
 use clap::Args;
+use serde_json::{Value, json};
 
-use crate::ensemble::Quantity;
+use crate::ensemble::{Failing, Quantity};
 use crate::study::{Demand, Study};
 use crate::terminal::answer::Answer;
 use crate::terminal::failure::Failure;
@@ -55,6 +56,25 @@ pub(crate) fn judged(answer: Answer, may_fail: Option<f64>, at_most: f64) -> Ans
     match may_fail {
         Some(may_fail) if at_most > may_fail => answer.with_code(NOT_SHOWN),
         _ => answer,
+    }
+}
+
+/// How many walls fail, of how many, in the JSON object of an answer.
+pub(crate) fn of_walls(failing: &Failing) -> Value {
+    json!({
+        "fail": failing.fail,
+        "unknown": failing.unknown,
+        "walls": failing.walls,
+        "share": failing.share(),
+        "share_ci": failing.interval(),
+    })
+}
+
+/// How many of them are not known, as the end of a sentence; nothing where all are.
+pub(crate) fn and_unknown(failing: &Failing) -> String {
+    match failing.unknown {
+        0 => String::new(),
+        some => format!(", and of {some} it is not known"),
     }
 }
 

@@ -14,6 +14,7 @@ use crate::verb::analyse::fall::Fall;
 use crate::verb::analyse::open;
 use crate::verb::analyse::uncertainty::UncertaintySummary;
 use crate::verb::arguments::SolverName;
+use crate::verb::demand::{and_unknown, of_walls};
 
 /// Digits of a load.
 const DIGITS: usize = 4;
@@ -149,15 +150,7 @@ impl Demanded {
             Met::Fails => "fails",
             Met::Unknown => "not_known",
         };
-        let over = self.over.as_ref().map(|over| {
-            json!({
-                "fail": over.failing.fail,
-                "unknown": over.failing.unknown,
-                "walls": over.failing.walls,
-                "share": over.failing.share(),
-                "share_ci": over.failing.interval(),
-            })
-        });
+        let over = self.over.as_ref().map(|over| of_walls(&over.failing));
         json!({
             "stated": self.stated,
             "level": self.level,
@@ -174,10 +167,7 @@ impl Demanded {
 fn fails(failing: &Failing) -> String {
     let percent = |x: f64| 100.0 * x;
     let share = with_interval(failing.share().map(percent), failing.interval().map(|ci| ci.map(percent)), 2);
-    let unknown = match failing.unknown {
-        0 => String::new(),
-        some => format!(", and of {some} it is not known"),
-    };
+    let unknown = and_unknown(failing);
     format!("over the ranges it fails in {share} % of {} walls{unknown}", failing.walls)
 }
 

@@ -1,12 +1,10 @@
 //! What `analyse --out` writes of a wall: a page, a picture, files for ParaView, and tables of its blocks and joints.
 
-use std::fs;
-use std::io::ErrorKind;
 use std::path::Path;
 
 use serde_json::{Value, json};
 
-use crate::ensemble::replace_file;
+use crate::ensemble::{remove_file, replace_file};
 use crate::exchange::{Format, WallFile, write_wall_json};
 use crate::math::Vec3;
 use crate::model::{Block, Movement, Replay, Support, Wall};
@@ -58,7 +56,7 @@ pub(crate) fn write_page(path: &Path, of: &Seen<'_>, told: &Told<'_>) -> Result<
 }
 
 /// Files that not every answer has. `wall.json` is not among them: it may be the wall that is asked about.
-const OF_SOME: [&str; 12] = [
+const OF_SOME: [&str; 14] = [
     "mechanism.vtu",
     "mended.csv",
     "mended.svg",
@@ -71,6 +69,8 @@ const OF_SOME: [&str; 12] = [
     "uncertainty.csv",
     "uncertainty.svg",
     "uncertainty.png",
+    "verification.csv",
+    "verification.svg",
 ];
 
 /// Removes what an earlier answer left in a folder and this one may not have; never the wall itself.
@@ -82,12 +82,7 @@ pub(crate) fn forget(folder: &Path, wall: &Path) -> Result<(), Failure> {
         if is_wall || !folder.join(ANALYSIS).is_file() {
             continue;
         }
-        match fs::remove_file(&file) {
-            Err(error) if error.kind() != ErrorKind::NotFound => {
-                return Err(Failure::Run(format!("{}: {error}", file.display())));
-            }
-            _ => {}
-        }
+        remove_file(&file)?;
     }
     Ok(())
 }

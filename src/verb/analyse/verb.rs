@@ -49,6 +49,7 @@ pub(crate) fn analyse(arguments: &Analyse) -> Result<Answer, Failure> {
     let arguments = &with_usual_stiffness(arguments);
     let mut warnings = asked_in_vain(arguments)?;
     warnings.extend(usual(arguments));
+    let site = verify::site(arguments)?;
     let (read, fit, done) = match read(arguments) {
         Ok(found) => found,
         Err(faults) if arguments.json => {
@@ -89,7 +90,7 @@ pub(crate) fn analyse(arguments: &Analyse) -> Result<Answer, Failure> {
     let others = opinions(arguments, wall, &fit, (&answer, begun.elapsed().as_secs_f64()));
     warnings.extend(others.as_ref().and_then(Opinions::warning));
     let given = Given { arguments, file: &read, fit: &fit, settlements: &settlements };
-    let verification = verified(&given, &file.wall, &asked(arguments))?;
+    let verification = site.map(|site| verified(&given, &file.wall, &asked(arguments), site)).transpose()?;
     warnings.extend(verification.iter().flat_map(|own| own.site.warnings.iter().cloned()));
     let sure = given.how_sure(asked(arguments), (&file.wall, &answer, &found))?;
     let state = (is_seen || demand.is_some()).then(|| State::of(&file.wall, &fit.contact, &found));

@@ -1,13 +1,11 @@
 //! The page of a run; and an answer as its files, its page and its words.
 
-use std::fs;
-use std::io::ErrorKind;
 use std::num::NonZero;
 use std::path::Path;
 
 use serde::Serialize;
 
-use crate::ensemble::{Row, replace_file};
+use crate::ensemble::{Row, remove_file, replace_file};
 use crate::render::document::Document;
 use crate::study::{Loaded, Study};
 use crate::terminal::answer::Answer;
@@ -100,11 +98,8 @@ pub(crate) fn beside(
 /// Removes the page of an earlier answer, which would be taken for that of this one, and says so in a line; nothing where there is none.
 pub(crate) fn without_page(out: &Path) -> Result<String, Failure> {
     let file = out.join(PAGE);
-    match fs::remove_file(&file) {
-        Ok(()) => {
-            Ok(format!("{} was of an earlier answer and is removed; --report writes it\n", file.display()))
-        }
-        Err(error) if error.kind() == ErrorKind::NotFound => Ok(String::new()),
-        Err(error) => Err(Failure::Run(format!("{}: {error}", file.display()))),
-    }
+    Ok(match remove_file(&file)? {
+        true => format!("{} was of an earlier answer and is removed; --report writes it\n", file.display()),
+        false => String::new(),
+    })
 }

@@ -7,4 +7,4 @@ mod said;
 mod work;
 
 pub(crate) use said::Verification;
-pub(crate) use work::{refused, verified};
+pub(crate) use work::{refused, site, verified};

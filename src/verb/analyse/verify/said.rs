@@ -16,6 +16,7 @@ use crate::terminal::failure::Failure;
 use crate::verb::analyse::verify::figure::figure;
 use crate::verb::analyse::verify::over::Over;
 use crate::verb::analyse::verify::work::Checked;
+use crate::verb::demand::{and_unknown, of_walls};
 use crate::verify::ByDisplacement;
 
 /// Digits of a ratio and of a length.
@@ -46,10 +47,7 @@ impl Verification {
             None => significant(first.ratio(), DIGITS),
         };
         let over = self.over.as_ref().map_or_else(String::new, |over| {
-            let unknown = match over.failing.unknown {
-                0 => String::new(),
-                some => format!(", and of {some} it is not known"),
-            };
+            let unknown = and_unknown(&over.failing);
             format!(
                 "; over the ranges it is not in {} of {} walls{unknown}",
                 over.failing.fail, over.failing.walls
@@ -121,14 +119,9 @@ impl Verification {
     /// The same in the JSON object.
     pub fn object(&self) -> Value {
         let over = self.over.as_ref().map(|over| {
-            json!({
-                "fail": over.failing.fail,
-                "unknown": over.failing.unknown,
-                "walls": over.failing.walls,
-                "share": over.failing.share(),
-                "share_ci": over.failing.interval(),
-                "ratio_interval": over.interval,
-            })
+            let mut walls = of_walls(&over.failing);
+            walls["ratio_interval"] = json!(over.interval);
+            walls
         });
         let (verified, why) = match &self.checked {
             Ok(checked) => (Some(self.numbers(checked)), None),

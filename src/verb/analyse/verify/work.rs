@@ -130,17 +130,22 @@ fn softest(asked: &Analyse, kn: f64) -> f64 {
     }
 }
 
-/// The wall against the file of its site; `None` where there is none.
+/// The file of the site, before the wall is read: what is wrong with it is said before anything is computed.
+pub(crate) fn site(asked: &Analyse) -> Result<Option<Site>, Failure> {
+    let read = asked.verify.as_deref().map(Site::read).transpose();
+    read.map_err(|faults| Failure::Input(faults.to_string()))
+}
+
+/// The wall against its site.
 pub(crate) fn verified(
     given: &Given<'_>,
     wall: &Wall,
     asked_of_wall: &[AskedOfWall],
-) -> Result<Option<Verification>, Failure> {
-    let Some(path) = &given.arguments.verify else { return Ok(None) };
-    let site = Site::read(path).map_err(|faults| Failure::Input(faults.to_string()))?;
+    site: Site,
+) -> Result<Verification, Failure> {
     let checked = doing("following the mechanism", |_| {
         checked(given.arguments, (wall, given.settlements), given.fit, &site, true)
     });
     let over = over(given, asked_of_wall, &site)?;
-    Ok(Some(Verification { site, checked, over }))
+    Ok(Verification { site, checked, over })
 }

@@ -1,12 +1,10 @@
 //! The files of a report, each written whole or not at all.
 
-use std::fs;
-use std::io::ErrorKind;
 use std::path::Path;
 
 use anyhow::{Context, Result};
 
-use crate::ensemble::{Row, replace_file};
+use crate::ensemble::{Row, remove_file, replace_file};
 use crate::render::document::{Captioned, Document};
 use crate::render::draw::Figure;
 use crate::study::Study;
@@ -115,13 +113,8 @@ pub(crate) fn write_summary(summary: &Summary, dir: &Path, beside: Option<&Earli
 
 /// Removes a figure that an earlier run wrote into a folder.
 fn without_figure(dir: &Path, name: &str) -> Result<()> {
-    for file in ["svg", "png"].map(|ending| dir.join(format!("{name}.{ending}"))) {
-        match fs::remove_file(&file) {
-            Err(error) if error.kind() != ErrorKind::NotFound => {
-                return Err(error).context(file.display().to_string());
-            }
-            _ => {}
-        }
+    for ending in ["svg", "png"] {
+        remove_file(&dir.join(format!("{name}.{ending}")))?;
     }
     Ok(())
 }
